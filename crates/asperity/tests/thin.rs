@@ -63,6 +63,17 @@ fn what_keeps_its_volume_bends() {
     }
 }
 
+/// Half of a square bar of bricks that keeps its volume: towards the held end it curves ever more across its length.
+#[test]
+fn bars_that_keep_their_volume_curve_across() {
+    let beam = (4.0 * 20.0_f64.powi(3) + 1.2 * 20.0 * 2.0 * 1.4999) / 1e6;
+    for through in [1, 2] {
+        let bar = cantilever("hex8", through).replace(", \"b.front\"", "");
+        let sinking = -ended(&bar, "b.right", 1).1 / beam;
+        assert!((sinking - 1.0).abs() < 0.02, "{through}: {sinking}");
+    }
+}
+
 /// A block of steel upset between plates that stick: one layer of bricks between planes is not thin, and what quadrilaterals are in plane
 /// strain but for the axes over which F-bar shares the change of volume; with a free face it is a thin sheet.
 #[test]
@@ -243,18 +254,17 @@ fn plate([cell, law, more]: [&str; 3], cells: [usize; 3], size: [f64; 2]) -> (Fo
 const RUBBER: &str = "elastic = { young = 1e3, poisson = 0.499 }";
 const METAL: &str = "von_mises = { young = 1e3, poisson = 0.3, yield_stress = 1.0, hardening = 1.0 }";
 
-/// One tetrahedron of second degree through a plate: standard, with F-bar it is too soft by a quarter; two: F-bar.
+/// Tetrahedra of second degree through a plate: one shares a linear change of volume with its neighbours, as standard it is too stiff by up to a
+/// fifth.
 #[test]
 fn one_tetrahedron_of_second_degree_bends() {
-    for law in [RUBBER, METAL] {
+    for (law, right) in [(RUBBER, 0.98..1.02), (METAL, 1.0..1.09)] {
         let (formulation, force, told) = plate(["tet10", law, ""], [20, 1, 4], [1.0, 4.0]);
-        assert_eq!((formulation, told.len()), (Formulation::Standard, 0), "{told:?}");
-        assert!((1.0..1.12).contains(&force), "{force}");
+        assert_eq!((formulation, told.len()), (Formulation::FBar, 0), "{told:?}");
+        assert!(right.contains(&force), "{force}");
     }
     let (_, force, told) = plate(["tet10", RUBBER, ""], [10, 1, 2], [1.0, 4.0]);
-    assert!((1.15..1.22).contains(&force) && told[0].contains("some 20 %"), "{force} {told:?}");
-    let (_, force, told) = plate(["tet10", RUBBER, ", formulation = \"f-bar\""], [20, 1, 4], [1.0, 4.0]);
-    assert!((0.7..0.8).contains(&force) && told[0].starts_with("one tet10"), "{force} {told:?}");
+    assert!((0.98..1.02).contains(&force) && told.is_empty(), "{force} {told:?}");
     let (formulation, force, told) = plate(["tet10", RUBBER, ""], [20, 2, 4], [1.0, 4.0]);
     assert!((0.92..1.0).contains(&force) && told.is_empty(), "{force} {told:?}");
     assert_eq!(formulation, Formulation::FBar);

@@ -4,7 +4,7 @@ use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
 use super::incompatible;
-use super::patches::Patches;
+use super::patches::{self, Patches};
 use super::slenderness::Slenderness;
 use super::volume::Places;
 use super::{BodyOptions, Choice, CylinderAxes, Formulation, Heat, InitialStress, Integration, Strain};
@@ -60,8 +60,10 @@ pub(super) enum Bar {
 impl Bar {
     fn of(choice: &Choice) -> Self {
         match choice.formulation {
-            // Tetrahedra of second degree have fewer motions a cell than a linear field needs.
-            Formulation::FBar if choice.kind.degree == 2 && choice.kind.nodes.len() != 10 => Self::Linear,
+            // Tetrahedra of second degree alone have fewer motions than a linear field needs.
+            Formulation::FBar if choice.kind.degree == 2 && (choice.kind.nodes.len() != 10 || choice.joined) => {
+                Self::Linear
+            }
             Formulation::FBar => Self::Mean,
             Formulation::Auto | Formulation::Standard | Formulation::Incompatible => Self::Own,
         }
@@ -92,9 +94,8 @@ impl Body {
                 choices.push(choice.in_body(body, &options));
             }
         }
-        let barred =
-            |kind: &Cell| choices.iter().any(|choice| choice.kind == kind && choice.formulation == Formulation::FBar);
-        let patches = Patches::new(&mesh, &cells, barred);
+        let size = |kind: &Cell| choices.iter().find(|choice| choice.kind == kind).map_or(1, patches::size);
+        let patches = Patches::new(&mesh, &cells, size);
         let name = name.into();
         let (shapes, places, axes, initial_stress, heat) = (Vec::new(), Places::default(), None, None, None);
         let mut body = Self {
@@ -120,7 +121,7 @@ impl Body {
 
     fn kind_shapes(&self, choice: &Choice) -> KindShapes {
         let (kind, rule) = (choice.kind, self.rule(choice.kind));
-        let modes = if choice.formulation == Formulation::Incompatible { incompatible::modes(kind) } else { 0 };
+        let modes = incompatible::modes(choice);
         let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
         let points = rule.points.iter().zip(rule.weights).map(shapes);
         let warmth = rule.points.iter().map(|&xi| super::heat::weights(kind, xi, choice.integration, modes)).collect();
@@ -273,7 +274,7 @@ fn refuse(body: &str, kind: &Cell, space: Space, options: &BodyOptions) -> Resul
         (Formulation::Incompatible, Integration::Reduced) => {
             "incompatible modes need full integration; with reduced integration nothing resists them".to_string()
         }
-        (Formulation::Incompatible, _) if incompatible::modes(kind) == 0 => {
+        (Formulation::Incompatible, _) if !incompatible::has_modes(kind) => {
             format!(
                 "cells {} have no incompatible modes, only quad4 and hex8 do; use formulation = \"auto\"",
                 kind.name

@@ -4,7 +4,8 @@
 //! limit loads are never reached. Where the ratio `K / G` of bulk to shear modulus is as small as that of metals the error
 //! is that of the mesh; from [`NEARLY`] on F-bar takes over, and always where a solid flows with no change of volume or with one that
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
-//! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft.
+//! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft. One
+//! tetrahedron of second degree through a body shares its change of volume with others there.
 
 use super::slenderness::{STIFF, Slenderness, TWO_POINTS};
 use super::{Strain, incompatible};
@@ -85,10 +86,14 @@ pub struct Choice {
     pub stiff: Option<f64>,
     /// Whether they are too soft in bending.
     pub soft: bool,
+    /// Whether, as tetrahedra of second degree, a few of them share a linear change of volume.
+    pub(super) joined: bool,
     /// How many of them lie through a bonded layer that keeps its volume, where they are too few.
     pub layers: Option<f64>,
-    /// Whether the law flows.
+    /// Whether the law flows,
     flows: bool,
+    /// and whether its solid hardly changes its volume.
+    pub(super) keeps_volume: bool,
 }
 
 impl Choice {
@@ -102,7 +107,7 @@ impl Choice {
         let standard = |reason: &str, locks: bool| (Formulation::Standard, reason.to_string(), locks);
         let stiff = stiff && flow != Flow::Unknown;
         let layers = options.bonded.filter(|_| stiff || flow == Flow::Isochoric);
-        let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::modes(kind) > 0 && !reduced;
+        let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::has_modes(kind) && !reduced;
         let modes = |reason: &str| (Formulation::Incompatible, reason.to_string(), false);
         let (formulation, reason, locks) = match options.formulation {
             Formulation::Auto if space == Space::PlaneStress && bends => modes("bending, in plane stress"),
@@ -131,7 +136,19 @@ impl Choice {
         };
         let integration = if reduced { Integration::Reduced } else { Integration::Full };
         let flows = matches!(flow, Flow::Isochoric | Flow::Dilatant);
-        Self { kind, formulation, integration, reason, locks, stiff: None, soft: false, layers, flows }
+        Self {
+            kind,
+            formulation,
+            integration,
+            reason,
+            locks,
+            stiff: None,
+            soft: false,
+            joined: false,
+            layers,
+            flows,
+            keeps_volume: stiff,
+        }
     }
 
     /// One line: cells, formulation, reason.
@@ -170,7 +187,7 @@ impl Choice {
         }
         self.soft = !bonded && body.soft(self.kind, self.formulation);
         self.stiff = Some(stiff);
-        let modes = incompatible::modes(self.kind) > 0;
+        let modes = incompatible::has_modes(self.kind);
         let bends = body.stiff(self.kind, Formulation::Incompatible);
         let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF.max(bends);
         if auto && modes && (self.soft || shears) {
@@ -179,10 +196,9 @@ impl Choice {
                 false => format!("bending, with cells {} times as long as it is thick", rounded(body.along)),
             };
             (self.formulation, self.soft, self.stiff) = (Formulation::Incompatible, false, Some(bends));
-        } else if auto && self.soft {
-            self.reason = "bending, with one cell through it".into();
-            let stiff = body.stiff(self.kind, Formulation::Standard) + body.plain();
-            (self.formulation, self.soft, self.stiff) = (Formulation::Standard, false, Some(stiff));
+        } else if self.soft && !modes {
+            (self.joined, self.soft) = (true, false);
+            self.stiff = Some(body.stiff(self.kind, Formulation::Standard));
         }
         self.stiff = self.stiff.map(|part| part + body.stretched(self.kind)).filter(|part| part.abs() > STIFF);
         self
@@ -196,28 +212,20 @@ impl Choice {
                 "{name} cells with this law may be too stiff where it flows or keeps volume: formulation = \"auto\" chooses one that is not"
             )
         });
-        let soft = self.soft.then(|| match self.kind.degree {
-            1 => format!(
+        let soft = self.soft.then(|| {
+            format!(
                 "one or two {name} cells with F-bar lie through it: where it bends it is too soft, by a quarter with two and several \
                  times with one; three or more, cells of second degree or formulation = \"incompatible\" are not"
-            ),
-            _ => format!(
-                "one {name} with F-bar lies through it: where it bends it is too soft, by a quarter or more; two or more, or \
-                 formulation = \"standard\", are not"
-            ),
+            )
         });
         let why = match (self.kind.degree, self.formulation) {
-            (2, Formulation::Standard) if self.kind.nodes.len() == 10 => {
-                "are long, with one through it, for a law that keeps its volume, or curved: a quarter of that or less is left with cells \
-                 half as long"
-            }
             (1, Formulation::Incompatible) => {
                 "are trapezoids along it, which bend no better with incompatible modes, or flat where it is curved, and stretch as they bend \
                  unless they all bend alike (membrane locking); rectangles, cells half as long, and cells of second degree with \
                  integration = \"reduced\" do not"
             }
             (1, _) => "are too long, or too few through it, for first degree; those of second are right",
-            (_, Formulation::FBar) => {
+            (_, Formulation::FBar) if !self.joined => {
                 "are curved, and F-bar does not see all of their bending: a sixteenth of that is left with cells half as long, nothing \
                  with quad8, or two hex20 beside one another, and integration = \"reduced\""
             }

@@ -104,10 +104,14 @@ impl Shapes {
         Self { n, dn, weight, modes: 0 }
     }
 
-    /// With so many incompatible modes `1 - xi_k^2` behind its nodes.
+    /// With so many incompatible modes `1 - xi_k^2` behind its nodes, and a fourth `xi_1 xi_2 xi_3`.
     pub fn with_modes(mut self, kind: &Cell, xi: [f64; 3], modes: usize) -> Self {
         self.modes = modes;
-        (0..modes).for_each(|k| self.dn[kind.nodes.len() + k][k] = -2.0 * xi[k]);
+        let (dn, [x, y, z]) = (&mut self.dn[kind.nodes.len()..], xi);
+        (0..modes.min(3)).for_each(|k| dn[k][k] = -2.0 * xi[k]);
+        if modes > 3 {
+            dn[3] = [y * z, z * x, x * y];
+        }
         self
     }
 }

@@ -8,6 +8,10 @@
 //! its mean `F0` over the cell, `F = F(u) + F0 sum_k G_k (x) a_k` (Glaser and Armero 1997): the shear that a bent cell cannot
 //! avoid is so taken away, where `a_k (x) G_k` would turn it into a rotation, in which compressed cells buckle one by one.
 //!
+//! The change of volume of a brick's displacements has terms `xi_i xi_j` that these modes do not reach: where the law keeps its volume a bar
+//! that bends ever more along its length could not curve across it. There a fourth, `M = xi_1 xi_2 xi_3`, adds its gradient to the volume
+//! alone, `F0 (G . a) I` (the dilatational modes of Simo, Armero and Taylor 1993).
+//!
 //! The amplitudes `a_k`, vectors over the undeformed body, belong to the cell: they are found from its own equilibrium by
 //! Newton's method for any displacements of its nodes, and condensed out of its tangent. They are kept behind the states of the
 //! cell's points, a few with each.
@@ -16,7 +20,7 @@ use super::attempt::OpenBody;
 use super::gradient::{self, Rows, padded};
 use super::operator::{Nodal, Tangent, add_forces, deformation};
 use super::point::PointStress;
-use super::{Body, Strain};
+use super::{Body, Choice, Formulation, Strain};
 use crate::mesh::Space;
 use crate::mesh::cells::Cell;
 use crate::system::Local;
@@ -24,7 +28,9 @@ use crate::tensor::{Tensor2, Vec3, invert};
 use crate::{Failure, FailureKind};
 
 /// Most modes of a cell.
-const MOST: usize = 3;
+const MOST: usize = 4;
+/// The mode of a brick that changes its volume alone.
+const VOLUME: usize = 3;
 /// Most points of a cell.
 const POINTS: usize = 8;
 /// Most amplitudes.
@@ -37,11 +43,16 @@ const SMALL: f64 = 1e-9;
 /// Newton steps for the amplitudes.
 const LIMIT: usize = 25;
 
-/// How many modes cells of a kind may have.
-pub(super) fn modes(kind: &Cell) -> usize {
-    match (kind.degree, kind.dimension, kind.nodes.len()) {
-        (1, 2, 4) => 2,
-        (1, 3, 8) => 3,
+/// Whether cells of a kind may have modes.
+pub(super) fn has_modes(kind: &Cell) -> bool {
+    matches!((kind.degree, kind.dimension, kind.nodes.len()), (1, 2, 4) | (1, 3, 8))
+}
+
+/// How many the cells of a choice have.
+pub(super) fn modes(choice: &Choice) -> usize {
+    match (choice.formulation, choice.kind.dimension) {
+        (Formulation::Incompatible, 3) => VOLUME + usize::from(choice.keeps_volume),
+        (Formulation::Incompatible, axes) => axes,
         _ => 0,
     }
 }
@@ -59,10 +70,10 @@ pub(super) fn take_mean(rows: &mut [f64], volumes: &[f64], (length, columns): (u
     }
 }
 
-/// `sum_k G_k (x) a_k` from the gradients of the modes at a point.
+/// `sum_k G_k (x) a_k + (G . a) I` from the gradients of the modes at a point.
 fn enhancement(gradients: &Amplitudes, amplitudes: &Amplitudes) -> Tensor2 {
-    let entry = |i: usize, j: usize| gradients.iter().zip(amplitudes).map(|(g, a)| g[i] * a[j]).sum();
-    Tensor2::from_fn(entry)
+    let entry = |i: usize, j: usize| gradients.iter().zip(amplitudes).take(VOLUME).map(|(g, a)| g[i] * a[j]).sum();
+    Tensor2::from_fn(entry) + Tensor2::identity() * gradients[VOLUME].dot(amplitudes[VOLUME])
 }
 
 /// Gradients of the modes at a point, `length` apart behind those of the nodes.
@@ -133,8 +144,9 @@ struct ModePoint<const N: usize> {
     modes: Amplitudes,
     /// The latter times the mean deformation gradient.
     carried: Amplitudes,
-    /// Inverse of the deformation gradient at the accepted state, and the volume there.
+    /// Inverse of the deformation gradient at the accepted state, the mean times it, and the volume there.
     inverse: Tensor2,
+    whole: Tensor2,
     volume: f64,
     /// Gradients of the nodes' displacements over that, at the trial amplitudes.
     rows: Rows<N>,
@@ -205,6 +217,7 @@ impl OpenBody<'_> {
             modes: [Vec3::zero(); MOST],
             carried: [Vec3::zero(); MOST],
             inverse: Tensor2::identity(),
+            whole: Tensor2::identity(),
             volume: 0.0,
             rows: [[0.0; N]; 3],
             f: Tensor2::identity(),
@@ -245,6 +258,7 @@ impl OpenBody<'_> {
                 return Err(Failure::new("a cell is turned inside out").of(FailureKind::Inverted));
             }
             point.inverse = f.inverse();
+            point.whole = mean * point.inverse;
             point.volume *= det;
         }
         Ok(cell)
@@ -265,7 +279,9 @@ impl OpenBody<'_> {
             let stress = Tensor2::from_voigt(field.at(at));
             let thickness = self.body.nominal_thickness();
             for (k, out) in out.iter_mut().enumerate().take(DIM * MOST) {
-                *out += open.volume * thickness * (stress * point.modes[k / DIM])[k % DIM];
+                let (gradient, axis) = (point.modes[k / DIM], k % DIM);
+                let by = if k / DIM == VOLUME { gradient[axis] * stress.trace() } else { (stress * gradient)[axis] };
+                *out += open.volume * thickness * by;
             }
         }
         out
@@ -348,8 +364,12 @@ impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
     /// Derivative of the deformation of a point along one amplitude.
     fn along<const D: usize>(&self, point: &ModePoint<N>, (mode, axis): (usize, usize)) -> [f64; D] {
         let mut out = [0.0; D];
-        for (out, carried) in out.chunks_exact_mut(DIM).zip(point.carried[mode].0) {
-            out.iter_mut().enumerate().for_each(|(j, out)| *out = carried * point.inverse[(axis, j)]);
+        for (i, out) in out.chunks_exact_mut(DIM).enumerate() {
+            let (by, of, row) = match mode {
+                VOLUME => (point.modes[mode][axis], &point.whole, i),
+                _ => (point.carried[mode][i], &point.inverse, axis),
+            };
+            out.iter_mut().enumerate().for_each(|(j, out)| *out = by * of[(row, j)]);
         }
         out
     }
@@ -370,7 +390,9 @@ impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
                 let pulled = Vec3(std::array::from_fn(|axis| {
                     s_i.iter().enumerate().map(|(j, p)| p * point.inverse[(axis, j)]).sum::<f64>() * s.volume
                 }));
-                *second = point.modes.iter().zip(shares).fold(*second, |sum, (g, a)| sum + *g * a.dot(pulled));
+                let along = point.modes.iter().zip(shares).take(VOLUME);
+                *second = along.fold(*second, |sum, (g, a)| sum + *g * a.dot(pulled))
+                    + pulled * point.modes[VOLUME].dot(shares[VOLUME]);
             }
         }
         if self.strain == Strain::Finite {

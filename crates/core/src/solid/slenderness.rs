@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// By what part some cells of first degree are too stiff in bending by the simplices or prisms among them, where that is much: that
 /// of a body of these alone, times their part of it.
 pub fn too_stiff(mesh: &Mesh, cells: &[usize]) -> Option<f64> {
-    let plain = |&cell: &usize| incompatible::modes(mesh.kinds[cell]) == 0;
+    let plain = |&cell: &usize| !incompatible::has_modes(mesh.kinds[cell]);
     let kind = cells.iter().copied().find(plain).map(|cell| mesh.kinds[cell])?;
     if cells.iter().any(|&cell| mesh.kinds[cell].degree != 1) {
         return None;
@@ -100,8 +100,8 @@ impl Slenderness {
         let (long, thick) = (self.along.powi(2), self.through.powi(-2));
         match (kind.degree, formulation) {
             (1, Formulation::Incompatible) => 0.7 * self.taper.powi(2) * thick,
-            (1, Formulation::FBar) if incompatible::modes(kind) > 0 => 0.35 * long,
-            (1, _) if incompatible::modes(kind) > 0 => 0.35 * long + 0.3 * thick,
+            (1, Formulation::FBar) if incompatible::has_modes(kind) => 0.35 * long,
+            (1, _) if incompatible::has_modes(kind) => 0.35 * long + 0.3 * thick,
             (1, _) => long + 2.7 * thick,
             (2, Formulation::FBar) => {
                 let lost = [3.0, 1.5, 0.8, 0.0][match together(kind) {
@@ -123,7 +123,7 @@ impl Slenderness {
     /// the thickness (membrane locking, Stolarski and Belytschko 1983). A ring or tube that bends alike all along its axis makes
     /// up for it by a change of its length.
     pub fn stretched(&self, kind: &Cell) -> f64 {
-        if incompatible::modes(kind) > 0 { 16.0 / 3.0 * self.arc.powi(2) } else { 0.0 }
+        if incompatible::has_modes(kind) { 16.0 / 3.0 * self.arc.powi(2) } else { 0.0 }
     }
 
     /// Whether reduced integration serves cells of a kind that full integration makes wrong in bending by some part: quadrilaterals and bricks
@@ -143,12 +143,6 @@ impl Slenderness {
             _ => 0.0,
         };
         formulation == Formulation::FBar && self.through < few
-    }
-
-    /// By what part tetrahedra of second degree, one through a body of a law that keeps its volume, are too stiff in bending without F-bar:
-    /// that of cantilevers of Poisson's ratio 0.499 and of metal that flows, with cells once and twice as long as they are thick.
-    pub fn plain(&self) -> f64 {
-        0.05 * self.along.powi(2)
     }
 }
 
@@ -194,7 +188,7 @@ fn tapers(mesh: &Mesh, boundary: &[Side], beside: &[Vec<Vec<usize>>]) -> Vec<(f6
 /// times their length over their distance and it alone, along the way of the two where that is more; none of other cells.
 fn taper(mesh: &Mesh, side: Side) -> [f64; 2] {
     let view = mesh.cell(side.cell);
-    if incompatible::modes(view.kind) == 0 {
+    if !incompatible::has_modes(view.kind) {
         return [0.0; 2];
     }
     let Some(across) = across(mesh, side) else { return [0.0; 2] };

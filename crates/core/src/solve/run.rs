@@ -1,6 +1,6 @@
 //! Steps and increments: the loop around the attempts.
 
-use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, FLOWING, JUMPED, LEAP, NOISE, RELAX};
+use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
 use super::constants::sizes::{AIM, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{Converged, Memory, Newton, SolveError};
@@ -159,8 +159,8 @@ impl<'a> Run<'a> {
         // In a step that has just begun no size has served.
         let begun = self.state.step_time > 0.0;
         let served = if begun { caution.usual(step) } else { RELAX * caution.usual(step) };
-        let flows = self.problem.contacts.is_empty() && self.state.energies.iter().any(|body| body.dissipated > 0.0);
-        let longest = if flows { FLOWING * served } else { RELAX * served };
+        let again = self.problem.contacts.is_empty() && self.state.jumps > 0;
+        let longest = if again { served } else { RELAX * served };
         let mut cause = String::new();
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);

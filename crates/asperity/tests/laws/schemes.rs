@@ -130,8 +130,8 @@ fn errors_fall_with_the_order_of_the_scheme() {
     }
 }
 
-/// Stress after a path that begins where the law flows, compacted or not, and that is too short to meet an edge or a corner.
-fn without_kinks(material: &dyn Material, compacted: f64, update: Update) -> Option<Tensor2> {
+/// Stress after a path that begins where the law flows, compacted, and that is too short to meet an edge or a corner.
+fn without_kinks(material: &dyn Material, compacted: f64, update: Update) -> Result<Tensor2, Failure> {
     let fine = Update { scheme: Scheme::TwoStep, substeps: 256, tolerance: None };
     let mut state = super::samples::initial(material);
     let shear = |xy: f64, yz: f64| {
@@ -143,9 +143,9 @@ fn without_kinks(material: &dyn Material, compacted: f64, update: Update) -> Opt
     stretch[(0, 0)] = 1.0105 - compacted;
     for (f, update) in [(stretch, fine), (shear(0.004, 0.0), fine), (shear(0.001, 0.001), update)] {
         let (law, old) = (material.with_update(update).unwrap(), state.clone());
-        law.update(&f, 1e-3.into(), &old, &mut state).ok()?;
+        law.update(&f, 1e-3.into(), &old, &mut state)?;
     }
-    Some(super::samples::stress(&state))
+    Ok(super::samples::stress(&state))
 }
 
 /// Where no edge and no corner lies on the path, every law but the stiff ones has the order of the scheme.
@@ -153,29 +153,42 @@ fn without_kinks(material: &dyn Material, compacted: f64, update: Update) -> Opt
 fn without_kinks_the_order_is_the_second() {
     let mut short = Vec::new();
     for sample in samples().iter().filter(|sample| matches!(claim(sample.law), Claim::Second | Claim::Kinks)) {
-        let mut met = false;
-        for compacted in [0.0, 0.008] {
-            for scheme in [Scheme::TwoStep, Scheme::Midpoint(0.5)] {
-                let by = |substeps| {
-                    without_kinks(sample.material.as_ref(), compacted, Update { scheme, substeps, tolerance: None })
-                };
-                let Some(exact) = by(4096) else { continue };
-                met = true;
-                let error = |substeps| {
-                    let e = by(substeps).unwrap() - exact;
-                    (e.contract(e) / exact.contract(exact)).sqrt()
-                };
-                let (first, last) = (error(4), error(64));
-                let order = (first / last).log2() / 4.0;
-                eprintln!("| {} | {compacted} | {scheme:?} | {first:.1e} | {order:.2} |", sample.name);
-                if first >= 1e-11 && order < 1.9 {
-                    short.push(format!("{}, {compacted}: {scheme:?} has the order {order:.2}", sample.name));
-                }
+        // The joints flow by themselves.
+        let compacted = if sample.law == "ubiquitous_joint" { 0.002 } else { 0.008 };
+        for scheme in [Scheme::TwoStep, Scheme::Midpoint(0.5)] {
+            let by = |substeps| {
+                without_kinks(sample.material.as_ref(), compacted, Update { scheme, substeps, tolerance: None })
+                    .unwrap()
+            };
+            let exact = by(4096);
+            let error = |substeps| {
+                let e = by(substeps) - exact;
+                (e.contract(e) / exact.contract(exact)).sqrt()
+            };
+            let (first, last) = (error(4), error(64));
+            let order = (first / last).log2() / 4.0;
+            eprintln!("| {} | {scheme:?} | {first:.1e} | {order:.2} |", sample.name);
+            if first >= 1e-11 && order < 1.9 {
+                short.push(format!("{}: {scheme:?} has the order {order:.2}", sample.name));
             }
         }
-        assert!(met, "{}", sample.name);
     }
     assert!(short.is_empty(), "{short:#?}");
+}
+
+/// Where matrix and joints flow together, each by its flow at the end of a step, eight sub-steps come within a hundredth of a per cent (with
+/// the flows on the way to it a tenth of one).
+#[test]
+fn matrix_and_joints_flow_together() {
+    for sample in samples().iter().filter(|sample| sample.law == "ubiquitous_joint") {
+        let by = |substeps| {
+            let update = Update { scheme: Scheme::TwoStep, substeps, tolerance: None };
+            without_kinks(sample.material.as_ref(), 0.001, update).unwrap()
+        };
+        let (exact, e) = (by(4096), by(8) - by(4096));
+        let error = (e.contract(e) / exact.contract(exact)).sqrt();
+        assert!(error < 1e-4, "{}: {error:.1e}", sample.name);
+    }
 }
 
 #[test]

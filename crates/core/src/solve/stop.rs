@@ -54,16 +54,20 @@ impl Run<'_> {
         !new.is_empty()
     }
 
-    /// Whether contacts bear no more than the load of any tool that stands on a stop in a converged attempt: a stop presses, and one that
-    /// would have to pull is let go of.
+    /// Whether contacts bear no more than the load of any tool that stands on a stop in a converged attempt, and nothing of one that grows: a
+    /// stop presses, and one that would have to pull is let go of.
     ///
     /// # Errors
-    /// The failure of an attempt with a stop that pulls.
+    /// The failure of an attempt with a stop in the place of what bears.
     pub(super) fn nothing_bears_stopped(&mut self, converged: &Converged) -> Result<(), SolveError> {
-        let State { stopped, u: before, .. } = &mut self.state;
-        let load = &converged.evaluation.load;
-        let is_borne =
-            |dof: usize| stop(load[dof], converged.u[dof] - before[dof], self.problem.cell_size)[0] * load[dof] < 0.0;
+        let State { stopped, u: before, load: past, .. } = &mut self.state;
+        let Evaluation { internal, load, .. } = &converged.evaluation;
+        let is_borne = |dof: usize| {
+            let [force, _] = stop(load[dof], converged.u[dof] - before[dof], self.problem.cell_size);
+            // What a load grows by goes to what bears it, and not to the stop.
+            let grows = (load[dof] - past[dof]) * load[dof] > 0.0;
+            force * load[dof] < 0.0 || grows && (internal[dof] - force).abs() > LOST * load[dof].abs()
+        };
         stopped.retain(|&dof| load[dof] != 0.0);
         let borne = stopped.iter().copied().find(|&dof| is_borne(dof));
         stopped.retain(|&dof| !is_borne(dof));

@@ -176,21 +176,6 @@ fn without_kinks_the_order_is_the_second() {
     assert!(short.is_empty(), "{short:#?}");
 }
 
-/// Where matrix and joints flow together, each by its flow at the end of a step, eight sub-steps come within a hundredth of a per cent (with
-/// the flows on the way to it a tenth of one).
-#[test]
-fn matrix_and_joints_flow_together() {
-    for sample in samples().iter().filter(|sample| sample.law == "ubiquitous_joint") {
-        let by = |substeps| {
-            let update = Update { scheme: Scheme::TwoStep, substeps, tolerance: None };
-            without_kinks(sample.material.as_ref(), 0.001, update).unwrap()
-        };
-        let (exact, e) = (by(4096), by(8) - by(4096));
-        let error = (e.contract(e) / exact.contract(exact)).sqrt();
-        assert!(error < 1e-4, "{}: {error:.1e}", sample.name);
-    }
-}
-
 #[test]
 fn the_midpoint_rule_is_refused_where_the_law_is_stiff() {
     for sample in samples().iter().filter(|sample| claim(sample.law) == Claim::Stiff) {

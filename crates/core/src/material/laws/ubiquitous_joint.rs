@@ -2,8 +2,7 @@
 //!
 //! On the plane of the joint with normal `n`, `t = sigma n`, `s_n = n.t`, `tau = |t - s_n n|` (tension positive):
 //! `f = tau + s_n tan phi_j - c_j` with flow by the angle of dilatancy, and `s_n <= s_t`. The normal turns with the
-//! frame. Returns to the matrix and to the joint alternate, each exact and each from the trial stress less what the other takes (Boyle and
-//! Dykstra 1986), until both end at one stress: a step of backward Euler, whose flows are those of its end.
+//! frame. Returns to the matrix and to the joint alternate, each exact, until neither moves the stress: two passes mostly.
 
 use super::axes::component;
 use super::drucker_prager::{COHESION, DILATANCY, FRICTION, check_angles};
@@ -156,20 +155,20 @@ impl RateLaw for UbiquitousJoint {
         vars: &State<T>,
         _lapse: Lapse,
     ) -> Result<(Tensor2<T>, State<T>), Failure> {
-        let (trial, &State { scalars, vectors: [normal] }) = (stress + self.joint.elastic.stress(&de), vars);
-        let size = trial.re().contract(trial.re()).sqrt();
-        let mut by_joint = Tensor2::zero();
+        let (mut stress, mut vars) = (stress + self.joint.elastic.stress(&de), *vars);
+        let size = stress.re().contract(stress.re()).sqrt();
         for _ in 0..PASSES {
-            let of_matrix = trial - by_joint;
-            let (borne, [shear, volume]) = self.matrix.returned(&of_matrix, scalars[0])?;
-            let of_joint = borne + by_joint;
-            let (joined, motion) = self.joint.returned(&of_joint, normal).unwrap_or((of_joint, [T::zero(); 3]));
-            by_joint = of_joint - joined;
-            let apart = (joined - borne).re();
-            if apart.contract(apart).sqrt() <= STILL * size {
-                let work = self.matrix.plastic_work(&of_matrix, &borne) + motion[2];
-                let more = [shear, volume, motion[0], motion[1], work];
-                return Ok((joined, State { scalars: std::array::from_fn(|i| scalars[i] + more[i]), ..*vars }));
+            let trial = stress;
+            let (borne, [shear, volume]) = self.matrix.returned(&trial, vars.scalars[0])?;
+            vars.scalars[0] += shear;
+            vars.scalars[1] += volume;
+            vars.scalars[4] += self.matrix.plastic_work(&trial, &borne);
+            let Some((joined, motion)) = self.joint.returned(&borne, vars.vectors[0]) else { return Ok((borne, vars)) };
+            (0..3).for_each(|i| vars.scalars[2 + i] += motion[i]);
+            stress = joined;
+            let beyond = joined.re() - self.matrix.returned(&joined.re(), vars.scalars[0].re())?.0;
+            if beyond.contract(beyond).sqrt() <= STILL * size {
+                return Ok((stress, vars));
             }
         }
         Err(Failure::new("ubiquitous joint: matrix and joint do not agree on a stress"))

@@ -325,6 +325,19 @@ fn a_tool_that_has_lost_what_bore_it() {
     assert!((sunk(last) / sunk(lost) - 1.0).abs() < 1e-9, "{} {}", sunk(last), sunk(lost));
 }
 
+/// A plate whose rounded edge the corner of the block still props up, slipping off it: it stops before it comes down, and corner and stop
+/// share its load.
+#[test]
+fn a_tool_that_slips_off_what_bears_it() {
+    let line = "{ line = [[0.0, 1.0], [6.0, 1.0]] }";
+    let arc = "{ arc = [[-0.5, 1.5], [-0.35355339059327373, 1.1464466094067263], [0.0, 1.0]] }";
+    let deck = DRAWN.replace(line, &format!("{{ line = [[-0.5, 3.0], [-0.5, 1.5]] }}, {arc}, {line}"));
+    assert_ne!(deck, DRAWN);
+    let run = Run::of(&deck, &[]);
+    assert_ne!(run.code(), 3, "{}", run.error());
+    assert!(run.notes().contains("tool 'plate' along y under its load from time"), "{}", run.notes());
+}
+
 /// A block that nothing holds any more is left where it is, or ends the run; it never drifts away.
 #[test]
 fn what_nothing_holds_any_more() {

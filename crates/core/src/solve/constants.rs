@@ -193,7 +193,8 @@ pub mod increments {
     /// Energy below this part of that of the model and of its forces over a cell is rounding.
     pub const NOISE: f64 = 1e-9;
     /// Part of the size that served last, at most the first of the step, from which on an increment that fails is relaxed (its square
-    /// in the first increment of a step), and what the next one is after that, at least.
+    /// in the first increment of a step), and what the next one is after that, at least. Where nothing touches and an increment has been
+    /// relaxed before it is the whole: soil without dilatancy has no equilibrium near most states under a footing, however short the increment.
     pub const RELAX: f64 = 0.125;
     pub const JUMPED: f64 = 0.25;
     /// Attempts at one increment before the run gives up.

@@ -47,6 +47,7 @@ impl Newton<'_> {
     pub fn relax(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, SolveError> {
         let mut at = self.begin(self.state.u.clone())?;
         self.begin_sequence();
+        self.refresh_stiffness()?;
         let (mut coefficient, mut failed, mut spent) = (START * self.mean_stiffness()?, false, 0);
         while spent < MOST {
             let mut trial = at.clone();
@@ -73,6 +74,11 @@ impl Newton<'_> {
             failed = taken.is_none();
             self.evaluate(&at.0, at.1.as_deref(), self.tangent())?;
             self.refresh_stiffness()?;
+            let fallen = |dof: &usize| (at.0[*dof] - self.state.u[*dof]).abs() > self.problem.size;
+            self.memory.unborne = self.unborne().into_iter().filter(fallen).collect();
+            if !self.memory.unborne.is_empty() {
+                break;
+            }
             let balanced = at.1.is_none() && self.measure().converged();
             if balanced && self.settles(&mut at, (&mut *record, &mut *observer), &mut spent)? {
                 let norms = self.measure();

@@ -159,6 +159,8 @@ impl<'a> Run<'a> {
         // In a step that has just begun no size has served.
         let begun = self.state.step_time > 0.0;
         let served = if begun { caution.usual(step) } else { RELAX * caution.usual(step) };
+        let again = self.problem.contacts.is_empty() && self.state.jumps > 0;
+        let longest = if again { served } else { RELAX * served };
         let mut cause = String::new();
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
@@ -233,11 +235,12 @@ impl<'a> Run<'a> {
                     }
                     caution.fail(dt);
                     relaxed |= relaxing;
-                    caution.vain |= relaxing;
-                    let small = dt <= RELAX * served && !caution.vain;
+                    let small = relaxing || dt <= longest && !caution.vain;
                     if small && self.stops() {
+                        relaxing = false;
                         continue;
                     }
+                    caution.vain |= relaxing;
                     relaxing = !relaxed && (small || !step.may_halve(dt));
                     if !relaxing && !step.may_halve(dt) {
                         return Err(self.give_up(step, dt, &cause));

@@ -1,7 +1,8 @@
 //! Tools that a load drives and that nothing bears any more: they stop where they are, as against a spacer, and the stop bears
 //! what their contacts do not.
 //!
-//! A blank holder that the rim of the blank has left is the common case. Without a stop no state is in equilibrium.
+//! A blank holder that the rim of the blank has left is the common case. Without a stop no state is in equilibrium. One whose rounded edge
+//! the rim still props up comes down by itself, with a relaxation: it is stopped before that, and rim and stop share its load.
 
 use super::constants::stops::{LOST, YIELD};
 use super::newton::{Converged, IfFree, Newton, SolveError};
@@ -53,16 +54,19 @@ impl Run<'_> {
         !new.is_empty()
     }
 
-    /// Whether contacts bear no tool that stands on a stop in a converged attempt; those that are borne are let go of.
+    /// Whether contacts bear no more than the load of any tool that stands on a stop in a converged attempt, and nothing of one that grows: a
+    /// stop presses, and one that would have to pull is let go of.
     ///
     /// # Errors
-    /// The failure of an attempt with a stop under what contacts bear.
+    /// The failure of an attempt with a stop in the place of what bears.
     pub(super) fn nothing_bears_stopped(&mut self, converged: &Converged) -> Result<(), SolveError> {
-        let State { stopped, u: before, .. } = &mut self.state;
+        let State { stopped, u: before, load: past, .. } = &mut self.state;
         let Evaluation { internal, load, .. } = &converged.evaluation;
         let is_borne = |dof: usize| {
-            let motion = converged.u[dof] - before[dof];
-            (internal[dof] - stop(load[dof], motion, self.problem.cell_size)[0]).abs() > LOST * load[dof].abs()
+            let [force, _] = stop(load[dof], converged.u[dof] - before[dof], self.problem.cell_size);
+            // What a load grows by goes to what bears it, and not to the stop.
+            let grows = (load[dof] - past[dof]) * load[dof] > 0.0;
+            force * load[dof] < 0.0 || grows && (internal[dof] - force).abs() > LOST * load[dof].abs()
         };
         stopped.retain(|&dof| load[dof] != 0.0);
         let borne = stopped.iter().copied().find(|&dof| is_borne(dof));

@@ -8,7 +8,7 @@
 //!
 //! Schemes of second order are made of steps of backward Euler, of which the exponentials are none: by `update` with such
 //! a scheme the pressures are `p = p_n/(1 - v de_v^e/kappa)` and `pc = pc_n/(1 - v de_v^p/(lambda - kappa))`, and `G = r K(p)`
-//! is that of the end (see [`ElasticCourse`]).
+//! is that of the end (see [`Course`]).
 
 use super::elastic::POISSON;
 use super::rate;
@@ -80,7 +80,7 @@ fn build(v: &[f64], shear: Stiffness) -> Result<Box<dyn Material>, String> {
         shear,
         pressure,
         preconsolidation,
-        course: ElasticCourse::Exact,
+        course: Course::Exact,
     }))
 }
 
@@ -93,13 +93,28 @@ pub enum Stiffness {
     Constant(f64),
 }
 
-/// How a step carries the pressures.
+/// How a step carries a pressure that grows with compaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ElasticCourse {
-    /// By their exponentials.
+pub enum Course {
+    /// By its exponential.
     Exact,
     /// By backward Euler, of which schemes of second order are made.
     Implicit,
+}
+
+impl Course {
+    /// That of which a scheme is made.
+    pub(super) fn of(scheme: Scheme) -> Self {
+        if scheme == Scheme::BackwardEuler { Self::Exact } else { Self::Implicit }
+    }
+
+    /// A pressure before the compaction `x`, a ratio, over that after it; by backward Euler there is none after `x = 1`.
+    pub(super) fn left<S: Scalar>(self, x: S) -> S {
+        match self {
+            Self::Exact => (-x).exp(),
+            Self::Implicit => -x + 1.0,
+        }
+    }
 }
 
 /// The law.
@@ -118,7 +133,7 @@ pub struct CamClay {
     /// Preconsolidation at the beginning.
     pub preconsolidation: f64,
     /// How a step carries both.
-    pub course: ElasticCourse,
+    pub course: Course,
 }
 
 /// `(exp(x) - 1)/x`, smooth through zero.
@@ -154,8 +169,8 @@ impl<S: Scalar> Step<S> {
         let p = self.p * law.grown(x);
         let double_shear = match (law.shear, law.course) {
             (Stiffness::Constant(shear), _) => S::from(2.0 * shear),
-            (Stiffness::Ratio(ratio), ElasticCourse::Exact) => self.p * growth(x) * (2.0 * ratio / law.elastic),
-            (Stiffness::Ratio(ratio), ElasticCourse::Implicit) => p * (2.0 * ratio / law.elastic),
+            (Stiffness::Ratio(ratio), Course::Exact) => self.p * growth(x) * (2.0 * ratio / law.elastic),
+            (Stiffness::Ratio(ratio), Course::Implicit) => p * (2.0 * ratio / law.elastic),
         };
         (p, double_shear)
     }
@@ -176,12 +191,11 @@ impl CamClay {
         pc * self.grown(plastic / self.plastic)
     }
 
-    /// A pressure after the compaction `x`, both as ratios. By backward Euler there is none beyond `x = 1`.
+    /// A pressure after the compaction `x`, both as ratios.
     fn grown<S: Scalar>(&self, x: S) -> S {
         match self.course {
-            ElasticCourse::Exact => x.exp(),
-            ElasticCourse::Implicit if x.re() < 1.0 => (-x + 1.0).recip(),
-            ElasticCourse::Implicit => S::from(f64::NAN),
+            Course::Implicit if x.re() >= 1.0 => S::from(f64::NAN),
+            course => course.left(x).recip(),
         }
     }
 }
@@ -213,9 +227,7 @@ impl RateLaw for CamClay {
     }
 
     fn updated(&self, update: Update) -> Box<dyn Material> {
-        let course =
-            if update.scheme == Scheme::BackwardEuler { ElasticCourse::Exact } else { ElasticCourse::Implicit };
-        Box::new(Rate(Integrated { law: Self { course, ..*self }, update }))
+        Box::new(Rate(Integrated { law: Self { course: Course::of(update.scheme), ..*self }, update }))
     }
 
     fn update<T: Scalar>(

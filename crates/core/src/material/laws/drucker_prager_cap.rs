@@ -3,16 +3,19 @@
 //! `Pb = Pb_0 exp(e_c/x)` (as that of Schanz, Vermeer and Bonnier 1999, with a logarithm in the place of a power), never back.
 //!
 //! Backward Euler: the cone takes `G y` from `t = sqrt(J2)` and adds `K eta_b y` to `P`; the cap divides `t` by `1 + 6 G l/a^2` and `P` by
-//! `1 + 2 K l`, and compacts by `2 l P`. A stress beyond returns to the cone or its apex, to the cap, or to the edge of both, the first of
+//! `1 + 2 K l`, and compacts by `2 l P`. Its pressure follows by the exponential, and by backward Euler in the schemes of second order,
+//! which are made of that (see [`Course`](super::Course)). A stress beyond returns to the cone or its apex, to the cap, or to the edge of both, the first of
 //! them that the other surface bears.
 
+use super::cam_clay::Course;
 use super::drucker_prager::{COHESION, Cone, DILATANCY, FRICTION, check_angles};
 use super::elastic::{Elastic, POISSON, YOUNG};
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root, solve};
-use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
+use crate::integrate::{System, Update, root, solve};
+use crate::material::integrated::Integrated;
+use crate::material::{Flow, Lapse, Material, Rate, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn positive(key: &'static str, meaning: &'static str, unit: &'static str, default: Option<f64>) -> Parameter {
@@ -47,7 +50,8 @@ pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
         check_angles(v[3], v[4])?;
         let [eta, xi, eta_b] = Cone::Outer.match_angles(v[3].to_radians(), v[4].to_radians());
         let cone = [eta, eta_b, xi * v[2]];
-        Ok(rate(Capped { elastic: Elastic::new(v[0], v[1]), cone, first: v[5], ratio: v[6], compressibility: v[7] }))
+        let (elastic, course) = (Elastic::new(v[0], v[1]), Course::Exact);
+        Ok(rate(Capped { elastic, cone, first: v[5], ratio: v[6], compressibility: v[7], course }))
     },
 };
 
@@ -61,27 +65,29 @@ pub struct Capped {
     first: f64,
     ratio: f64,
     compressibility: f64,
+    /// How a step carries the pressure of the cap.
+    course: Course,
 }
 
 /// Part of the stress by which a surface may be passed.
 const NEAR: f64 = 1e-12;
 
-/// Where a return ends: `t`, `P` and the pressure of the cap, and the strains of cone and cap, `y` and `l`.
+/// Where a return ends: `t`, `P`, the pressure of the cap at the beginning over that at the end, and the strains of cone and cap, `y` and `l`.
 #[derive(Clone, Copy)]
 struct End<S> {
     t: S,
     p: S,
-    cap: S,
+    left: S,
     y: S,
     l: S,
 }
 
 impl Capped {
-    fn end<S: Scalar>(&self, [t, p, cap]: [S; 3], y: S, l: S) -> End<S> {
+    fn end<S: Scalar>(&self, [t, p, _]: [S; 3], y: S, l: S) -> End<S> {
         let (g, k) = (self.elastic.shear, self.elastic.bulk());
         let t = (t - y * g) / (l * (6.0 * g / (self.ratio * self.ratio)) + 1.0);
         let p = (p + y * (k * self.cone[1])) / (l * (2.0 * k) + 1.0);
-        End { t, p, cap: cap * (l * p * (2.0 / self.compressibility)).exp(), y, l }
+        End { t, p, left: self.course.left(l * p * (2.0 / self.compressibility)), y, l }
     }
 
     fn beyond_cone<S: Scalar>(&self, t: S, p: S) -> S {
@@ -92,16 +98,22 @@ impl Capped {
         t * t * (3.0 / (self.ratio * self.ratio)) + p * p - cap * cap
     }
 
+    /// How far an end is beyond its cap, which was `cap` at the beginning: a ratio, that falls on where backward Euler has no cap.
+    fn at_the_end<S: Scalar>(&self, end: &End<S>, cap: S) -> S {
+        let left = if end.left.re() < 0.0 { -(end.left * end.left) } else { end.left * end.left };
+        self.beyond_cap(end.t, end.p, S::zero()) * left / (cap * cap) - 1.0
+    }
+
     /// Return to the cone, or to its apex.
     fn onto_cone<S: Scalar>(&self, start: [S; 3]) -> (End<S>, S) {
-        let ([t, p, cap], [eta, eta_b, strength]) = (start, self.cone);
+        let ([t, p, _], [eta, eta_b, strength]) = (start, self.cone);
         let (g, k) = (self.elastic.shear, self.elastic.bulk());
         let y = self.beyond_cone(t, p) * (1.0 / (g + k * eta * eta_b));
         if y.re() * g <= t.re() {
             return (self.end(start, y, S::zero()), y * eta_b);
         }
         let apex = S::from(-strength / eta);
-        (End { t: S::zero(), p: apex, cap, y: t / g, l: S::zero() }, (apex - p) / k)
+        (End { t: S::zero(), p: apex, left: S::one(), y: t / g, l: S::zero() }, (apex - p) / k)
     }
 }
 
@@ -111,7 +123,7 @@ struct CapAlone<'a>(&'a Capped, f64);
 impl System<1, 3> for CapAlone<'_> {
     fn residual<S: Scalar>(&self, &[l]: &[S; 1], data: &[S; 3]) -> [S; 1] {
         let end = self.0.end(*data, S::zero(), l * self.1);
-        [self.0.beyond_cap(end.t, end.p, end.cap) / (data[2] * data[2])]
+        [self.0.at_the_end(&end, data[2])]
     }
 }
 
@@ -121,8 +133,7 @@ struct Edge<'a>(&'a Capped, [f64; 2]);
 impl System<2, 3> for Edge<'_> {
     fn residual<S: Scalar>(&self, &[y, l]: &[S; 2], data: &[S; 3]) -> [S; 2] {
         let end = self.0.end(*data, y * self.1[0], l * self.1[1]);
-        let cap = data[2];
-        [self.0.beyond_cone(end.t, end.p) / cap, self.0.beyond_cap(end.t, end.p, end.cap) / (cap * cap)]
+        [self.0.beyond_cone(end.t, end.p) / data[2], self.0.at_the_end(&end, data[2])]
     }
 }
 
@@ -138,7 +149,7 @@ impl Capped {
         let size = t.max(p.abs()).max(cap);
         if passes_cone {
             let (end, volume) = self.onto_cone(start);
-            if end.p.re() <= 0.0 || self.beyond_cap(end.t, end.p, end.cap).re() <= NEAR * size * size {
+            if end.p.re() <= 0.0 || self.beyond_cap(end.t.re(), end.p.re(), cap) <= NEAR * size * size {
                 return Ok(Some((end, volume)));
             }
         }
@@ -193,7 +204,11 @@ impl RateLaw for Capped {
         };
         let stress = s * scale - Tensor2::identity() * end.p;
         let sheared = (t - end.t) * (1.0 / self.elastic.shear);
-        Ok((stress, [end.cap, volume + more, shear + sheared]))
+        Ok((stress, [cap / end.left, volume + more, shear + sheared]))
+    }
+
+    fn updated(&self, update: Update) -> Box<dyn Material> {
+        Box::new(Rate(Integrated { law: Self { course: Course::of(update.scheme), ..*self }, update }))
     }
 
     fn flow(&self) -> Flow {

@@ -387,3 +387,25 @@ fn a_contact_that_gives_way_in_place_of_a_confined_body_is_told() {
     }
     assert_eq!(Run::of(CONFINED, &["step.1.increments.count=4"]).code(), 0);
 }
+
+/// A strip held at its ends is pressed by three of its thicknesses in one increment, the first part of it through a gap: the trapezoid of
+/// the work misses half of it, and that alone is no doubt.
+#[test]
+fn what_one_increment_cannot_resolve_is_not_doubted() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.strip.rectangle = { from = [-3.0, -0.31], to = [3.0, 0.0], cells = [23, 3], cell = "quad4" }
+material.rubber.neo_hookean = { shear = 1.0, bulk = 3.0 }
+body.strip.material = "rubber"
+tool.punch.profile = [{ line = [[-0.4, 3.0], [-0.4, 0.02]] }, { line = [[-0.4, 0.02], [0.45, 0.02]] }, { line = [[0.45, 0.02], [0.45, 3.0]] }]
+contact.top = { surface = "strip.top", target = "punch", law.coulomb.friction = 0.2 }
+[[step]]
+increments.count = 1
+displacement."strip.left" = { x = 0.0, y = 0.0 }
+displacement."strip.right" = { x = 0.0, y = 0.0 }
+motion.punch.y = -0.95
+"#;
+    let run = Run::of(deck, &[]);
+    assert_eq!(run.code(), 0, "{}", run.notes());
+}

@@ -54,6 +54,7 @@ impl Problem {
             internal,
             load: vec![0.0; count],
             external_work: stored.iter().sum(),
+            unresolved_work: 0.0,
             energies: stored.iter().map(|&stored| Energies { stored, ..Energies::default() }).collect(),
             next_dt: self.steps.first().map_or(0.0, |s| s.increments.first * s.duration),
             histories,

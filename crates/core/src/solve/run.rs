@@ -422,8 +422,11 @@ impl<'a> Run<'a> {
         let preconditioner = self.system.snapshot().map_err(|error| Error::Input(error.to_string()))?;
         let (state, mut evaluation) = (&mut self.state, converged.evaluation);
         learn(state, &converged.u, dt, self.problem.dofs.nodes() * self.problem.dofs.per_node());
-        for (i, change) in state.last_change.iter().enumerate() {
-            state.external_work += 0.5 * (state.internal[i] + evaluation.internal[i]) * change;
+        let along = |forces: &[f64]| forces.iter().zip(&state.last_change).map(|(f, change)| f * change).sum::<f64>();
+        let [before, now] = [&state.internal, &evaluation.internal].map(|forces| along(forces));
+        state.external_work += 0.5 * (before + now);
+        if now.abs() > before.abs() {
+            state.unresolved_work += 0.5 * (now - before).abs();
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;

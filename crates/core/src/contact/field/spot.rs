@@ -5,7 +5,7 @@ use super::contact::FieldContact;
 use super::cover::Patch;
 use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
-use super::space::{DIRECTIONS, INTEGRALS, PartMap, Polygon, Spread, spread, whole};
+use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
 use super::tool::RigidTool;
 use crate::tensor::{Dual, Vec3, legendre};
 use std::sync::LazyLock;
@@ -64,13 +64,13 @@ enum SpotMap {
 }
 
 impl FieldContact {
-    /// Whether a closed rule (Lobatto; the nodal integration of contact) is laid on a patch: over tools at a crease, in space on faces of
+    /// Whether a closed rule (Lobatto; the nodal integration of contact) is laid on a patch: over tools at a crease, in space on whole faces of
     /// first degree, and where facets of first degree of a curve touch what is straight by their corners. A mean lets a corner go in as
     /// far as the rest of the face stands off. Of a uniform pressure both kinds of rules make the same nodal forces.
     pub(super) fn is_closed(&self, patch: &Patch) -> bool {
         let (surface, face) = (&self.parts.surface, patch.face);
         let first = surface.faces[face].kind.degree == 1;
-        let creased = surface.creased[face] && (surface.plane || first);
+        let creased = surface.creased[face] && (surface.plane || (first && patch.seen.is_none()));
         let touches = |tool: &RigidTool| creased || (first && surface.curved[face] && tool.is_straight(patch.target));
         self.parts.target.as_tool().is_some_and(touches)
     }
@@ -165,26 +165,14 @@ impl PatchInPlace<'_> {
         spots
     }
 
-    /// The corners of a face of first degree in space, each with the integral of its function over what is seen: a closed rule.
+    /// The corners of a face of first degree in space, each with the integral of its function: a closed rule.
     fn at_corners(&self) -> Vec<FaceSpot> {
-        type D = Dual<INTEGRALS>;
-        let (face, cut) = (self.face.face, self.cut.as_ref());
-        if self.patch.seen.is_some() && cut.is_none() {
-            return Vec::new();
-        }
-        let part = cut.map_or_else(|| Polygon::<D>::whole(face.corners()).moments(), |cut| cut.moments(D::variable));
-        let ([x, y], xy) = (part.centre, part.product());
+        let face = self.face.face;
         let at = |corner: usize| {
-            let xi = face.corner_place(corner);
-            // The mean of the corner's function, and where its centroid lies on the whole face.
-            let (mean, inward) = match (face.corners(), corner) {
-                (3, 0) => (D::from(1.0) - x - y, 0.0),
-                (3, _) => ([x, y][corner - 1], 0.0),
-                _ => ((x * xi[0] + y * xi[1] + xy * (xi[0] * xi[1]) + 1.0) * 0.25, -2.0 / 3.0),
-            };
-            let (weight, still) = (part.area * mean, [0.0; INTEGRALS]);
-            let laid = SpotMap::Bounded([still, still, weight.du]);
-            FaceSpot { xi, weight: weight.re, inward: xi.map(|xi| inward * xi), vertex: None, laid }
+            // Over a quadrilateral the centroid of that function is where a density of first degree has its mean.
+            let (xi, (weight, inward)) =
+                (face.corner_place(corner), if face.corners() == 3 { (1.0 / 6.0, 0.0) } else { (1.0, -2.0 / 3.0) });
+            FaceSpot { xi, weight, inward: xi.map(|xi| inward * xi), vertex: None, laid: SpotMap::Whole }
         };
         (0..face.corners()).map(at).collect()
     }

@@ -16,8 +16,9 @@ pub struct FieldNode {
     pub node: usize,
     /// The faces around it, each with the number of the corner that the node is.
     pub support: Vec<(usize, usize)>,
-    /// Whether the smooth piece ends here, in space: not all edges of its faces that meet at the node have one on either side. Of faces of
-    /// second degree at its corners alone: what lies between two ends of an edge is no node of the field.
+    /// Whether the surface ends here, in space: not all edges of its faces that meet at the node have one on either side. Of faces of
+    /// second degree at its corners alone: what lies between two ends of an edge is no node of the field. Where it goes on round a crease
+    /// it does not end: a vertex of a side that slides along another body would look past that.
     pub ends: bool,
     /// Whether the surface crosses the axis of revolution here without a crease, so that its normal stays along the axis.
     on_axis: bool,
@@ -118,6 +119,7 @@ impl FieldSurface {
             if roots.len() > 1 {
                 creased.extend(corners.iter().map(|&(f, _)| self.faces[f].side));
             }
+            let smooth_here = roots.len() == 1;
             for root in roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
                 let support: Vec<(usize, usize)> = members.map(|i| corners[i]).collect();
@@ -125,7 +127,9 @@ impl FieldSurface {
                 let on_axis = self.revolves
                     && mesh.points[node][0].abs() <= axis
                     && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
-                let ends = self.is_open(&support) && (self.is_first(&support) || self.angle(&support, mesh) < CORNER);
+                let ends = smooth_here
+                    && self.is_open(&support)
+                    && (self.is_first(&support) || self.angle(&support, mesh) < CORNER);
                 nodes.push(FieldNode { node, support, ends, on_axis });
             }
         }

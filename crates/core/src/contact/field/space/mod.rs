@@ -6,4 +6,4 @@ mod polygon;
 
 pub use cut::{CutFace, SeenNodes, nearby};
 pub use overlap::{DIRECTIONS, PolygonPart, Spread, foot, spread, whole};
-pub use polygon::{INTEGRALS, PartMap, Polygon};
+pub use polygon::{INTEGRALS, PartMap};

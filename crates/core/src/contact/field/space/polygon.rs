@@ -134,10 +134,6 @@ impl<T: Scalar> Moments<T> {
         let spread = [xx / area - c[0] * c[0], xy / area - c[0] * c[1], yy / area - c[1] * c[1]];
         Self { area, centre: [c[0] + T::from(o[0]), c[1] + T::from(o[1])], spread }
     }
-    /// The mean of `x y`.
-    pub fn product(&self) -> T {
-        self.spread[1] + self.centre[0] * self.centre[1]
-    }
     fn is_strip(&self) -> bool {
         let [a, b, c] = self.spread.map(T::re);
         a * c - b * b <= STRIP * (a + c).powi(2)

@@ -134,7 +134,7 @@ impl Configuration<'_> {
         found
     }
 
-    /// Whether a corner of a face at which a smooth piece ends sees a body within a patch.
+    /// Whether a corner of a face at which the surface ends sees a body within a patch.
     fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
         let surface = &self.contact.parts.surface;
         if corner >= face.face.corners() || !surface.nodes[surface.field[patch.face][corner]].ends {

@@ -24,7 +24,7 @@ pub struct Patch {
     pub near: [f64; 2],
     /// In space, where the border of a piece of a tool cuts the face, the nodes of a grid on it that see the piece.
     pub seen: Option<SeenNodes>,
-    /// Corners of the face at an end of a smooth piece that see the target here.
+    /// Corners of the face at an end of the surface that see the target here.
     pub vertices: [bool; CORNERS],
     /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.
     pub tip: Option<Landing>,

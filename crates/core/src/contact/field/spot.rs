@@ -47,7 +47,7 @@ pub struct FaceSpot {
     /// The density of area counts at the place plus this times the weight: of a closed rule where it is the mean of what the place stands
     /// for, so that a uniform pressure makes the nodal forces that it should around an axis too.
     pub inward: [f64; 2],
-    /// The corner of the face that it is, where a smooth piece ends there: it stands for no area of its own.
+    /// The corner of the face that it is, where the surface ends there: it stands for no area of its own.
     pub vertex: Option<usize>,
     laid: SpotMap,
 }

@@ -1,4 +1,4 @@
-//! A vertex where a smooth piece of the surface ends in space: a corner or an edge of a body, node to segment beside the mortar field
+//! A vertex where the surface ends in space, as at an edge of a body: node to segment beside the mortar field
 //! (Farah, Wall & Popp, Int. J. Numer. Meth. Eng. 114, 2018).
 //!
 //! The gap of a node is a mean over its faces: a sharp edge lies in the other body by as much as these stand off beside it. Where the vertex

@@ -633,7 +633,7 @@ fn wheel(around: usize, friction: f64, deep: f64) -> Model {
     let (mut nodes, mut cells, mut outer) = (String::new(), String::new(), String::new());
     for (k, j) in (0..3).flat_map(|k| (0..2 * around).map(move |j| (k, j))) {
         for i in (0..3).filter(|i| i % 2 + j % 2 + k % 2 < 2) {
-            let (radius, angle) = (6.0 + 2.0 * i as f64, PI * ((j as f64 - 1.0) / around as f64));
+            let (radius, angle) = (6.0 + 2.0 * i as f64, PI * (j as f64 - 1.0) / around as f64);
             let [x, y] = [radius * angle.cos(), radius * angle.sin()];
             nodes += &format!("{}, {x:.12}, {y:.12}, {}\n", node(i, j, k), 2 * k);
         }
@@ -657,14 +657,13 @@ fn wheel(around: usize, friction: f64, deep: f64) -> Model {
         "*NODE\n{nodes}*ELEMENT, TYPE=C3D20, ELSET=wheel\n{cells}*SURFACE, NAME=outer, TYPE=ELEMENT\n{outer}*NSET, NSET=inner\n{}\n",
         inner.join(",\n")
     );
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let name = format!("wheel-{:?}.inp", std::thread::current().id()).replace(['(', ')'], "");
-    std::fs::write(folder.join(&name), file).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("wheel.inp"), file).unwrap();
     let deck = format!(
         r#"
 version = 1
 space = "solid"
-mesh.file = "{name}"
+mesh.file = "wheel.inp"
 material.rubber.neo_hookean = {{ shear = 1.0, bulk = 10.0 }}
 body.wheel.material = "rubber"
 tool.road.plane = {{ at = [0.0, {}, 2.0], normal = [0.0, 1.0, 0.0], side = 200.0 }}
@@ -675,7 +674,7 @@ displacement.inner = {{ x = 0.0, y = -0.4, z = 0.0 }}
 "#,
         deep - 10.0
     );
-    let made = read(&deck, "wheel.toml", folder, &[]).and_then(build);
+    let made = read(&deck, "wheel.toml", folder.path(), &[]).and_then(build);
     made.unwrap_or_else(|found| panic!("{}", found.render(false))).model
 }
 

@@ -3,7 +3,7 @@
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FEET, Landing, Patch};
-use super::face::{CORNERS, moved};
+use super::face::moved;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::nodes::NodesInPlace;
@@ -108,7 +108,7 @@ impl FieldAttempt<'_> {
             places.extend(GAUSS.iter().map(place));
         }
         let own = &self.contact.parts.surface.faces[patch.face];
-        places.extend((0..CORNERS).filter(|&corner| patch.vertices[corner]).map(|corner| own.corner_place(corner)));
+        places.extend(patch.vertices().map(|corner| own.corner_place(corner)));
         for xi in places {
             if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {
                 nodes.extend_from_slice(&faces.surface.faces[face].nodes);

@@ -2,7 +2,7 @@
 
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, over_piece};
-use super::face::{CORNERS, PlacedFace, WHOLE};
+use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
 use super::part::{FacePart, nearest, samples};
 use super::space::{CutFace, SeenNodes, foot, nearby, whole};
@@ -82,7 +82,7 @@ impl Configuration<'_> {
             ends,
             near,
             seen: None,
-            vertices: [false; CORNERS],
+            vertices: Default::default(),
             tip: None,
         };
         match &self.target {
@@ -137,7 +137,7 @@ impl Configuration<'_> {
     /// Whether a corner of a face at which the surface ends sees a body within a patch.
     fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
         let surface = &self.contact.parts.surface;
-        if corner >= face.face.corners() || !surface.nodes[surface.field[patch.face][corner]].ends {
+        if corner >= face.face.corners() || !surface.nodes[surface.field[patch.face][corner]].is_vertex {
             return false;
         }
         let at = face.at(face.face.corner_place(corner));

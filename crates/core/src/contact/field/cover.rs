@@ -30,6 +30,13 @@ pub struct Patch {
     pub tip: Option<Landing>,
 }
 
+impl Patch {
+    /// Numbers of the corners at an end of the surface that see the target here.
+    pub fn vertices(&self) -> impl Iterator<Item = usize> + use<> {
+        self.vertices.into_iter().enumerate().filter(|(_, sees)| *sees).map(|(corner, _)| corner)
+    }
+}
+
 /// Most places of the surface that one tip touches: in a valley both sides, what lies between them, and what follows.
 pub const FEET: usize = 5;
 

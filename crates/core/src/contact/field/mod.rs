@@ -1,8 +1,8 @@
 //! Contact stress as a field of nodal values: the mortar method with penalty regularisation.
 //!
 //! The surface carries pressure and shear at the corner nodes of its faces, with the functions `M_i` of first degree (of second
-//! degree an edge counts as two, a curved face as four or five). Gaps and slips are weighted means over the undeformed surface, a law is asked once a node,
-//! and the field is then integrated back to forces on both sides:
+//! degree an edge counts as two, a curved face as four or five). Gaps and slips are weighted means over the undeformed surface, a law
+//! is asked once a node, and the field is then integrated back to forces on both sides:
 //! ```text
 //! A_i = int M_i dA    g_i = int M_i g dA / A_i    s_i = int M_i T(x)^t ds dA / A_i
 //! (p_i, tau_i) = law(-g_i, s_i; history of the node)
@@ -17,8 +17,8 @@
 //! with their law; `cover`, `part` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
 //! `support` is what such a search finds; `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all
 //! that follows from it along a `column` of the tangent, `points` all of a patch, which the `nodes` of its face share, `stencil` their
-//! sums for one node, with the share of a vertex of the body, `tip` the vertex of a wedge or a rounding within a face, `twist` the slip of a tool that turns; `attempt` and `term`
-//! are the ones that equilibrium knows, `stiffen` raises the penalty, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
+//! sums for one node, with the share of a vertex of the body, `tip` the vertex of a wedge or a rounding within a face, `twist` the slip
+//! of a tool that turns; `attempt` and `term` are the ones that equilibrium knows, `stiffen` raises the penalty, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
 //! differs is the cover of a face, which is in `space`, and the pose of a tool.
 
 mod attempt;

@@ -77,6 +77,11 @@ impl FieldContact {
 }
 
 impl FaceSpot {
+    /// Of an open rule.
+    fn new(xi: [f64; 2], weight: f64, laid: SpotMap) -> Self {
+        Self { xi, weight, inward: [0.0; 2], vertex: None, laid }
+    }
+
     /// The place whose density counts.
     pub fn dense(&self) -> [f64; 2] {
         [0, 1].map(|k| self.xi[k] + self.inward[k] * self.weight)
@@ -87,13 +92,9 @@ impl PatchInPlace<'_> {
     /// The places of its quadrature, and of its vertices.
     pub fn spots(&self, derivatives: bool) -> Vec<FaceSpot> {
         let mut spots = self.quadrature(derivatives);
-        let vertices = (0..CORNERS).filter(|&corner| self.patch.vertices[corner]);
-        spots.extend(vertices.map(|corner| FaceSpot {
-            xi: self.face.face.corner_place(corner),
-            weight: 0.0,
-            inward: [0.0; 2],
+        spots.extend(self.patch.vertices().map(|corner| FaceSpot {
             vertex: Some(corner),
-            laid: SpotMap::Whole,
+            ..FaceSpot::new(self.face.face.corner_place(corner), 0.0, SpotMap::Whole)
         }));
         spots
     }
@@ -107,12 +108,9 @@ impl PatchInPlace<'_> {
             };
             let half = 0.5 * (self.interval[1] - self.interval[0]);
             let both = |a: f64, b: f64| std::array::from_fn(|k| [a, b].get(k).map_or(0.0, |x| 0.5 * x));
-            let place = |&IntervalPoint { eta, weight, inward }: &IntervalPoint| FaceSpot {
-                xi: [self.place(eta), 0.0],
-                weight: weight * half,
-                inward: [inward, 0.0],
-                vertex: None,
-                laid: SpotMap::Bounded([both(1.0 - eta, 1.0 + eta), both(0.0, 0.0), both(-weight, weight)]),
+            let place = |&IntervalPoint { eta, weight, inward }: &IntervalPoint| {
+                let laid = SpotMap::Bounded([both(1.0 - eta, 1.0 + eta), both(0.0, 0.0), both(-weight, weight)]);
+                FaceSpot { inward: [inward, 0.0], ..FaceSpot::new([self.place(eta), 0.0], weight * half, laid) }
             };
             return rule.iter().map(place).collect();
         }
@@ -126,27 +124,18 @@ impl PatchInPlace<'_> {
             let share = laid.share();
             let on = |spread: Spread<f64>| {
                 let ([a, b], weight) = (laid.place(spread.xi), share * spread.weight);
-                FaceSpot {
-                    xi: [a.re, b.re],
-                    weight: weight.re,
-                    inward: [0.0; 2],
-                    vertex: None,
-                    laid: SpotMap::Bounded([a.du, b.du, weight.du]),
-                }
+                FaceSpot::new([a.re, b.re], weight.re, SpotMap::Bounded([a.du, b.du, weight.du]))
             };
             return whole(own.len()).map(on).collect();
         }
         let Some((faces, seen)) = &self.seen else {
-            let on =
-                |Spread { xi, weight }| FaceSpot { xi, weight, inward: [0.0; 2], vertex: None, laid: SpotMap::Whole };
+            let on = |Spread { xi, weight }| FaceSpot::new(xi, weight, SpotMap::Whole);
             return whole(own.len()).map(on).collect();
         };
         let other = &seen.nodes()[..faces.surface.faces[self.patch.target].corners()];
         let (mut spots, cubic) = (Vec::new(), self.cubic);
         if !derivatives {
-            spread(cubic, own, other, |Spread { xi, weight }| {
-                spots.push(FaceSpot { xi, weight, inward: [0.0; 2], vertex: None, laid: SpotMap::Whole })
-            });
+            spread(cubic, own, other, |Spread { xi, weight }| spots.push(FaceSpot::new(xi, weight, SpotMap::Whole)));
             return spots;
         }
         type D = Dual<DIRECTIONS>;
@@ -160,7 +149,7 @@ impl PatchInPlace<'_> {
         let (own_lifted, other_lifted) = (lift(own, 0), lift(other, DIRECTIONS / 2));
         spread(cubic, &own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
             let laid = SpotMap::Overlap(Box::new([a.du, b.du, weight.du]));
-            spots.push(FaceSpot { xi: [a.re, b.re], weight: weight.re, inward: [0.0; 2], vertex: None, laid });
+            spots.push(FaceSpot::new([a.re, b.re], weight.re, laid));
         });
         spots
     }
@@ -172,7 +161,7 @@ impl PatchInPlace<'_> {
             // Over a quadrilateral the centroid of that function is where a density of first degree has its mean.
             let (xi, (weight, inward)) =
                 (face.corner_place(corner), if face.corners() == 3 { (1.0 / 6.0, 0.0) } else { (1.0, -2.0 / 3.0) });
-            FaceSpot { xi, weight, inward: xi.map(|xi| inward * xi), vertex: None, laid: SpotMap::Whole }
+            FaceSpot { inward: xi.map(|xi| inward * xi), ..FaceSpot::new(xi, weight, SpotMap::Whole) }
         };
         (0..face.corners()).map(at).collect()
     }

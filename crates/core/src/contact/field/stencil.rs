@@ -47,6 +47,13 @@ struct NodeRates {
     slip: [f64; 2],
 }
 
+impl NodeRates {
+    /// Derivatives of penetration and slips at the point, whose own are `of_point`; of the line behind it there are none.
+    fn slopes(&self, of_point: Option<&PointRates>) -> [f64; COUNT] {
+        [of_point.map_or(0.0, |rate| -rate.gap), self.slip[0], self.slip[1]]
+    }
+}
+
 /// The triad that a point had at the accepted state, moved with the tool, and the line that its tangents follow.
 #[derive(Debug, Clone, Copy)]
 struct CarriedTriad {
@@ -429,7 +436,7 @@ impl NodeSums {
             let of_point = patches[*patch].rates(*k);
             let values = [-point.gap - y[0], slip[0] - y[1], slip[1] - y[2]];
             for (i, (node, &j)) in of_node.iter().zip(columns).enumerate() {
-                let slopes = [of_point.get(i).map_or(0.0, |rate| -rate.gap), node.slip[0], node.slip[1]];
+                let slopes = node.slopes(of_point.get(i));
                 (0..COUNT).for_each(|c| gradients[c * n + j] += node.weight * values[c] + weight * slopes[c]);
             }
         }

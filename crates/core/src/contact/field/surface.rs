@@ -16,10 +16,11 @@ pub struct FieldNode {
     pub node: usize,
     /// The faces around it, each with the number of the corner that the node is.
     pub support: Vec<(usize, usize)>,
-    /// Whether the surface ends here, in space: not all edges of its faces that meet at the node have one on either side. Of faces of
-    /// second degree at its corners alone: what lies between two ends of an edge is no node of the field. Where it goes on round a crease
-    /// it does not end: a vertex of a side that slides along another body would look past that.
-    pub ends: bool,
+    /// Whether the surface ends here, in space, so that the node bears as a vertex where it lies deep in another body: not all edges of its
+    /// faces that meet at the node have one on either side. Of faces of second degree at its corners alone: what lies between two ends of
+    /// an edge is no node of the field. Where it goes on round a crease it does not end: a vertex of a side that slides along another body
+    /// would look past that.
+    pub is_vertex: bool,
     /// Whether the surface crosses the axis of revolution here without a crease, so that its normal stays along the axis.
     on_axis: bool,
 }
@@ -119,18 +120,15 @@ impl FieldSurface {
             if roots.len() > 1 {
                 creased.extend(corners.iter().map(|&(f, _)| self.faces[f].side));
             }
-            let smooth_here = roots.len() == 1;
-            for root in roots {
+            for &root in &roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
                 let support: Vec<(usize, usize)> = members.map(|i| corners[i]).collect();
                 support.iter().for_each(|&(f, c)| field[f][c] = nodes.len());
                 let on_axis = self.revolves
                     && mesh.points[node][0].abs() <= axis
                     && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
-                let ends = smooth_here
-                    && self.is_open(&support)
-                    && (self.is_first(&support) || self.angle(&support, mesh) < CORNER);
-                nodes.push(FieldNode { node, support, ends, on_axis });
+                let is_vertex = roots.len() == 1 && self.is_vertex(&support, mesh);
+                nodes.push(FieldNode { node, support, is_vertex, on_axis });
             }
         }
         self.creased = self.faces.iter().map(|face| creased.contains(&face.side)).collect();
@@ -150,8 +148,10 @@ impl FieldSurface {
         edges.values().any(|&count| count == 1)
     }
 
-    fn is_first(&self, around: &[(usize, usize)]) -> bool {
-        around.iter().all(|&(f, _)| self.faces[f].kind.degree == 1)
+    /// Whether faces around a common corner end there with a vertex.
+    fn is_vertex(&self, around: &[(usize, usize)], mesh: &Mesh) -> bool {
+        let first = around.iter().all(|&(f, _)| self.faces[f].kind.degree == 1);
+        self.is_open(around) && (first || self.angle(around, mesh) < CORNER)
     }
 
     /// Angle that faces around a common corner fill, before any motion.

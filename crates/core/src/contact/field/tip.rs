@@ -22,7 +22,7 @@ use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::{FEET, FootBeside, Landing, Patch, root_near};
-use super::face::{CORNERS, FieldFace, MOST, PlacedFace, ShapeFunctions};
+use super::face::{FieldFace, MOST, PlacedFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, Touched, smoothstep};
 use super::points::Recall;
@@ -186,15 +186,8 @@ impl Configuration<'_> {
                 if feet[foot].is_none() && !has_foot {
                     let tip = Some(self.landing(place, &places, tool, share));
                     let near = [place.xi; 2];
-                    let patch = Patch {
-                        face: place.face,
-                        target: foot,
-                        ends: [None; 2],
-                        near,
-                        seen: None,
-                        vertices: [false; CORNERS],
-                        tip,
-                    };
+                    let (seen, vertices) = (None, Default::default());
+                    let patch = Patch { face: place.face, target: foot, ends: [None; 2], near, seen, vertices, tip };
                     feet[foot] = Some(TipFoot { patch, gap: place.gap });
                 }
             }

@@ -8,7 +8,7 @@
 //!
 //! Schemes of second order are made of steps of backward Euler, of which the exponentials are none: by `update` with such
 //! a scheme the pressures are `p = p_n/(1 - v de_v^e/kappa)` and `pc = pc_n/(1 - v de_v^p/(lambda - kappa))`, and `G = r K(p)`
-//! is that of the end (see [`Course`]).
+//! is that of the end (see [`PressureCourse`]).
 
 use super::elastic::POISSON;
 use super::rate;
@@ -80,7 +80,7 @@ fn build(v: &[f64], shear: Stiffness) -> Result<Box<dyn Material>, String> {
         shear,
         pressure,
         preconsolidation,
-        course: Course::Exact,
+        course: PressureCourse::Exact,
     }))
 }
 
@@ -95,14 +95,14 @@ pub enum Stiffness {
 
 /// How a step carries a pressure that grows with compaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Course {
+pub enum PressureCourse {
     /// By its exponential.
     Exact,
     /// By backward Euler, of which schemes of second order are made.
     Implicit,
 }
 
-impl Course {
+impl PressureCourse {
     /// That of which a scheme is made.
     pub(super) fn of(scheme: Scheme) -> Self {
         if scheme == Scheme::BackwardEuler { Self::Exact } else { Self::Implicit }
@@ -133,7 +133,7 @@ pub struct CamClay {
     /// Preconsolidation at the beginning.
     pub preconsolidation: f64,
     /// How a step carries both.
-    pub course: Course,
+    pub course: PressureCourse,
 }
 
 /// `(exp(x) - 1)/x`, smooth through zero.
@@ -169,8 +169,8 @@ impl<S: Scalar> Step<S> {
         let p = self.p * law.grown(x);
         let double_shear = match (law.shear, law.course) {
             (Stiffness::Constant(shear), _) => S::from(2.0 * shear),
-            (Stiffness::Ratio(ratio), Course::Exact) => self.p * growth(x) * (2.0 * ratio / law.elastic),
-            (Stiffness::Ratio(ratio), Course::Implicit) => p * (2.0 * ratio / law.elastic),
+            (Stiffness::Ratio(ratio), PressureCourse::Exact) => self.p * growth(x) * (2.0 * ratio / law.elastic),
+            (Stiffness::Ratio(ratio), PressureCourse::Implicit) => p * (2.0 * ratio / law.elastic),
         };
         (p, double_shear)
     }
@@ -194,7 +194,7 @@ impl CamClay {
     /// A pressure after the compaction `x`, both as ratios.
     fn grown<S: Scalar>(&self, x: S) -> S {
         match self.course {
-            Course::Implicit if x.re() >= 1.0 => S::from(f64::NAN),
+            PressureCourse::Implicit if x.re() >= 1.0 => S::from(f64::NAN),
             course => course.left(x).recip(),
         }
     }
@@ -227,7 +227,7 @@ impl RateLaw for CamClay {
     }
 
     fn updated(&self, update: Update) -> Box<dyn Material> {
-        Box::new(Rate(Integrated { law: Self { course: Course::of(update.scheme), ..*self }, update }))
+        Box::new(Rate(Integrated { law: Self { course: PressureCourse::of(update.scheme), ..*self }, update }))
     }
 
     fn update<T: Scalar>(

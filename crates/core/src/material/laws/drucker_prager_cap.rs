@@ -4,10 +4,10 @@
 //!
 //! Backward Euler: the cone takes `G y` from `t = sqrt(J2)` and adds `K eta_b y` to `P`; the cap divides `t` by `1 + 6 G l/a^2` and `P` by
 //! `1 + 2 K l`, and compacts by `2 l P`. Its pressure follows by the exponential, and by backward Euler in the schemes of second order,
-//! which are made of that (see [`Course`](super::Course)). A stress beyond returns to the cone or its apex, to the cap, or to the edge of both, the first of
+//! which are made of that (see [`PressureCourse`](super::PressureCourse)). A stress beyond returns to the cone or its apex, to the cap, or to the edge of both, the first of
 //! them that the other surface bears.
 
-use super::cam_clay::Course;
+use super::cam_clay::PressureCourse;
 use super::drucker_prager::{COHESION, Cone, DILATANCY, FRICTION, check_angles};
 use super::elastic::{Elastic, POISSON, YOUNG};
 use super::rate;
@@ -50,7 +50,7 @@ pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
         check_angles(v[3], v[4])?;
         let [eta, xi, eta_b] = Cone::Outer.match_angles(v[3].to_radians(), v[4].to_radians());
         let cone = [eta, eta_b, xi * v[2]];
-        let (elastic, course) = (Elastic::new(v[0], v[1]), Course::Exact);
+        let (elastic, course) = (Elastic::new(v[0], v[1]), PressureCourse::Exact);
         Ok(rate(Capped { elastic, cone, first: v[5], ratio: v[6], compressibility: v[7], course }))
     },
 };
@@ -66,7 +66,7 @@ pub struct Capped {
     ratio: f64,
     compressibility: f64,
     /// How a step carries the pressure of the cap.
-    course: Course,
+    course: PressureCourse,
 }
 
 /// Part of the stress by which a surface may be passed.
@@ -208,7 +208,7 @@ impl RateLaw for Capped {
     }
 
     fn updated(&self, update: Update) -> Box<dyn Material> {
-        Box::new(Rate(Integrated { law: Self { course: Course::of(update.scheme), ..*self }, update }))
+        Box::new(Rate(Integrated { law: Self { course: PressureCourse::of(update.scheme), ..*self }, update }))
     }
 
     fn flow(&self) -> Flow {

@@ -26,7 +26,7 @@ mod von_mises;
 mod yeoh;
 
 pub use arruda_boyce::ArrudaBoyce;
-pub use cam_clay::{CamClay, Course, Stiffness};
+pub use cam_clay::{CamClay, PressureCourse, Stiffness};
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use drucker_prager_cap::Capped;
 pub use elastic::Elastic;

@@ -86,7 +86,7 @@ impl NodeSums {
                 areas[j] += node.weight;
                 node.weight *= 1.0 - share;
                 if number == vertex {
-                    let slopes = [of_point.get(i).map_or(0.0, |rate| -rate.gap), node.slip[0], node.slip[1]];
+                    let slopes = node.slopes(of_point.get(i));
                     (0..COUNT).for_each(|c| own[c * n + j] += slopes[c]);
                 }
             }

@@ -84,7 +84,7 @@ pub struct FieldAttempt<'a> {
 
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> FieldSearch {
-        let now = Configuration::new(self.contact, u);
+        let now = Configuration::new(self.contact, u, Some(self.history));
         let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
         self.contact
             .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
@@ -545,7 +545,7 @@ impl FieldAttempt<'_> {
             return false;
         }
         let mut changed = false;
-        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]), |_| None);
+        let found = Configuration::new(self.contact, u, None).tips(self.contact.longest, Some(&[]), |_| None);
         for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
             if let (Some(had), Some(share)) = (share(before), share(now))
                 && share < CHANGED * had

@@ -5,10 +5,11 @@ use super::cover::{FaceInPlace, Patch, over_piece};
 use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
 use super::part::{FacePart, nearest, samples};
+use super::point::smoothstep;
 use super::space::{CutFace, SeenNodes, foot, nearby, whole};
 use super::tool::ToolInPlace;
 use crate::mesh::Mesh;
-use crate::system::Dofs;
+use crate::system::{Dofs, History};
 use crate::tensor::{BoundingBox, Vec3};
 
 /// Both sides of a contact at given unknowns.
@@ -19,6 +20,8 @@ pub struct Configuration<'a> {
     pub placed: Vec<PlacedFace>,
     /// Outward unit normals at the nodes of the field; none where nothing asks for them.
     pub normals: Vec<Vec3>,
+    /// Largest share of dual functions on each face.
+    pub duals: Vec<f64>,
     /// The target.
     pub target: TargetInPlace<'a>,
 }
@@ -42,13 +45,15 @@ impl FieldTarget {
 }
 
 impl<'a> Configuration<'a> {
-    /// At unknowns `u`.
-    pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
+    /// At unknowns `u`; stresses are those of the accepted state, where it has a history.
+    pub fn new(contact: &'a FieldContact, u: &[f64], history: Option<&History>) -> Self {
         let (surface, site) = (contact.surface(), contact.site());
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
-        Self { contact, placed, normals, target: contact.parts.target.at(site, u) }
+        let dual = |face: usize| history.map_or(1.0, |history| contact.dual_limit(face, history));
+        let duals = (0..surface.faces.len()).map(dual).collect();
+        Self { contact, placed, normals, duals, target: contact.parts.target.at(site, u) }
     }
 
     /// A face of the surface.
@@ -59,6 +64,9 @@ impl<'a> Configuration<'a> {
 
 /// Part of an edge by which an end of an interval may lie beside it, by rounding.
 const BESIDE: f64 = 1e-6;
+
+/// Part of a face from which on dual functions come in where it is covered; below two thirds they have no area of their own.
+const COVERED: f64 = 0.8;
 
 /// What a search finds on a face.
 #[derive(Debug, Clone, Copy)]
@@ -82,6 +90,7 @@ impl Configuration<'_> {
             ends,
             near,
             seen: None,
+            dual: 0.0,
             vertices: Default::default(),
             tip: None,
         };
@@ -89,7 +98,11 @@ impl Configuration<'_> {
             TargetInPlace::Tool(tool) if face.plane => {
                 for piece in 0..self.contact.pieces {
                     over_piece(&face, (tool, piece), |interval, ends| {
-                        found.extend(self.judge(&face, patch(piece, interval, ends), &samples(interval)));
+                        let mut part = patch(piece, interval, ends);
+                        if interval == WHOLE {
+                            part.dual = self.dual_share(&part, [2.0]);
+                        }
+                        found.extend(self.judge(&face, part, &samples(interval)));
                     });
                 }
             }
@@ -100,7 +113,8 @@ impl Configuration<'_> {
                     let all = patch(piece, WHOLE, [None; 2]);
                     let sees = |xi: &[f64; 2]| tool.closest(piece, face.at(*xi).x).beyond.is_none();
                     if rule.iter().chain(&corners).all(sees) {
-                        return self.judge(&face, all, &rule);
+                        let dual = self.dual_share(&all, [face.face.area()]);
+                        return self.judge(&face, Patch { dual, ..all }, &rule);
                     }
                     let focus = tool.middle(piece).and_then(|x| nearby(&face, foot(face.corners(), x)));
                     if !focus.iter().chain(&rule).chain(&corners).any(sees) {
@@ -123,7 +137,17 @@ impl Configuration<'_> {
                     let seen = self.judge(&face, patch(target, near, ends), &part.places())?;
                     Some((seen, part, seen.middle))
                 };
-                found = nearest(&candidates.filter_map(look).collect::<Vec<_>>()).map(|(seen, ..)| *seen).collect();
+                let all: Vec<_> = candidates.filter_map(look).collect();
+                found = nearest(&all).map(|(seen, ..)| *seen).collect();
+                for seen in &mut found {
+                    let piece = |target: usize| self.contact.piece_of(target);
+                    let same =
+                        |other: &&(SeenPart, FacePart, f64)| piece(other.0.patch.target) == piece(seen.patch.target);
+                    let areas = nearest(&all).filter(same).map(|(other, part, _)| {
+                        if self.contact.is_sharp(&other.patch) { part.area() } else { f64::NEG_INFINITY }
+                    });
+                    seen.patch.dual = self.dual_share(&seen.patch, areas);
+                }
             }
         }
         if let TargetInPlace::Faces(faces) = &self.target {
@@ -132,6 +156,16 @@ impl Configuration<'_> {
             }
         }
         found
+    }
+
+    /// Share of dual functions on a patch whose face sees the same piece of the target on parts of these areas.
+    fn dual_share(&self, patch: &Patch, parts: impl IntoIterator<Item = f64>) -> f64 {
+        if !self.contact.is_sharp(patch) {
+            return 0.0;
+        }
+        let face = &self.contact.parts.surface.faces[patch.face];
+        let covered = parts.into_iter().sum::<f64>() / face.area();
+        smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals[patch.face]
     }
 
     /// Whether a corner of a face at which the surface ends sees a body within a patch.

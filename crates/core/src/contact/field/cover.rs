@@ -24,6 +24,8 @@ pub struct Patch {
     pub near: [f64; 2],
     /// In space, where the border of a piece of a tool cuts the face, the nodes of a grid on it that see the piece.
     pub seen: Option<SeenNodes>,
+    /// Share of dual functions among those of its nodes.
+    pub dual: f64,
     /// Corners of the face at an end of the surface that see the target here.
     pub vertices: [bool; CORNERS],
     /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.

@@ -256,6 +256,11 @@ impl FieldFace {
         PlacedFace::new(self.nodes.iter().map(|&node| moved(mesh.points[node], &u[dofs.displacements(node)])))
     }
 
+    /// Its area in reference coordinates.
+    pub fn area(&self) -> f64 {
+        [2.0, 0.5, 4.0][self.corners() - 2]
+    }
+
     /// Whether reference coordinates lie on it, up to a part `beyond` past its edges.
     pub fn holds(&self, [a, b]: [f64; 2], beyond: f64) -> bool {
         match self.corners() {

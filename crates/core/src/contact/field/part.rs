@@ -39,6 +39,12 @@ impl FacePart {
         }
     }
 
+    /// Area in reference coordinates.
+    pub fn area(&self) -> f64 {
+        const TWO: [(f64, f64); 2] = [(-0.577_350_269_189_625_8, 1.0), (0.577_350_269_189_625_8, 1.0)];
+        self.rule(&TWO).iter().map(|(_, area)| area).sum()
+    }
+
     /// Places and areas in reference coordinates, by a rule of the interval from -1 to 1.
     pub fn rule(&self, rule: &[(f64, f64)]) -> Vec<([f64; 2], f64)> {
         match self {

@@ -2,7 +2,7 @@
 
 use super::column::{PointColumn, tool_motion};
 use super::contact::FieldTarget;
-use super::cover::{FaceInPlace, Patch, root_near};
+use super::cover::{FaceFrame, FaceInPlace, Patch, root_near};
 use super::face::{CORNERS, PlacedFace, ShapeFunctions, WHOLE};
 use super::faces::TargetFaces;
 use super::nodes::NodesInPlace;
@@ -10,6 +10,7 @@ use super::space::{CutFace, INTEGRALS};
 use super::surface::NodalNormal;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
+use crate::tool::NearestPoint;
 
 /// A patch in place, with all that its points have in common.
 pub struct PatchInPlace<'a> {
@@ -27,8 +28,9 @@ pub struct PatchInPlace<'a> {
     pub interval: [f64; 2],
     /// Whether functions on an overlap are of third degree, in space.
     pub cubic: bool,
-    /// Whether a closed rule is laid on it.
-    pub closed: bool,
+    /// Middle of the face and the closest point of the tool where it has dual functions, some of which are negative: they are in sight
+    /// together.
+    pub middle: Option<(FaceFrame, NearestPoint)>,
     /// The part of the face that it is, where the border of a piece of a tool cuts that in space.
     pub cut: Option<CutFace>,
 }
@@ -62,9 +64,13 @@ impl<'a> PatchInPlace<'a> {
             patch: *patch,
             interval: WHOLE,
             cubic: at.contact.is_cubic(patch),
-            closed: at.contact.is_closed(patch),
+            middle: None,
             cut: None,
         };
+        if let Some(tool) = patch.tool.filter(|_| patch.patch.dual > 0.0) {
+            let middle = patch.face.at(patch.face.face.middle());
+            patch.middle = Some((middle, tool.closest(patch.patch.target, middle.x)));
+        }
         for (k, end) in patch.patch.ends.into_iter().enumerate() {
             if let Some(end) = end {
                 patch.interval[k] = root_near(patch.patch.near[k], |xi| patch.offset(xi, end));

@@ -126,7 +126,10 @@ impl PatchInPlace<'_> {
         if self.tool.is_none() {
             return [1.0, 0.0];
         }
-        sight(self.face.own_normal(xi).dot(n))
+        match &self.middle {
+            Some((_, foot)) => sight(-self.face.own_normal(self.face.face.middle()).dot(foot.normal)),
+            None => sight(self.face.own_normal(xi).dot(n)),
+        }
     }
 
     /// Derivatives of a point along an unknown: `frame` is its place with its weight by what it looks at, `density` the undeformed
@@ -144,10 +147,18 @@ impl PatchInPlace<'_> {
         let (gap, n, s, y) = self.sight_rates(point, column, (frame, dx, dxi), turning);
         let mut dfacing = 0.0;
         if facing[1] != 0.0 {
-            let cosine = self.own_normal_rate(column, xi, dxi).dot(point.n) + self.face.own_normal(xi).dot(n);
+            let (xi, dxi, n, dn) = match (&self.middle, &self.tool) {
+                (Some((at, foot)), Some(tool)) => {
+                    let (rate, spin) = tool_motion(tool, column, at.x);
+                    let dn = -(foot.turned(self.moved(column, &at.shape) - rate) + spin.cross(foot.normal));
+                    (self.face.face.middle(), [0.0; 2], -foot.normal, dn)
+                }
+                _ => (xi, dxi, point.n, n),
+            };
+            let cosine = self.own_normal_rate(column, xi, dxi).dot(n) + self.face.own_normal(xi).dot(dn);
             dfacing = facing[1] * cosine;
         }
-        let slope: f64 = (0..2).map(|k| density.1[k] * (dxi[k] + spot.inward[k] * darea)).sum();
+        let slope: f64 = (0..2).map(|k| density.1[k] * dxi[k]).sum();
         let weight = darea * density.0 * facing[0] + spot.weight * (slope * facing[0] + density.0 * dfacing);
         let follow = |touched: &Touched| {
             let carried = touched.slopes[0] * dxi[0] + touched.slopes[1] * dxi[1];

@@ -94,10 +94,10 @@ impl PatchPoints {
             let xi = spot.xi;
             let frame = patch.face.at(xi);
             let (sight, n, gap, y) = patch.look(&frame)?;
-            let weight = spot.weight * surface.density_at(face, &rest, spot.dense()) * patch.facing(xi, n)[0];
+            let weight = spot.weight * surface.density_at(face, &rest, spot.xi) * patch.facing(xi, n)[0];
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
-            let (shape, functions) = (frame.shape, frame.corners);
+            let (shape, functions) = (frame.shape, surface.functions(&patch.patch, &frame.corners));
             let vertex = spot.vertex;
             self.points.push(PatchPoint { number, vertex, xi, weight, functions, shape, gap, n, v, y, sight, touched });
         }
@@ -122,9 +122,9 @@ impl PatchPoints {
         for point in &self.points {
             let (spot, frame) = (&spots[point.number], in_place.face.at(point.xi));
             let density = if still {
-                (surface.density_at(face, &rest, spot.dense()), [0.0; 2])
+                (surface.density_at(face, &rest, spot.xi), [0.0; 2])
             } else {
-                surface.density(face, &rest, spot.dense())
+                surface.density(face, &rest, spot.xi)
             };
             let facing = in_place.facing(point.xi, point.n);
             for (column, (bounds, turning)) in columns.iter().zip(bounds.iter().zip(&turning)) {

@@ -1,30 +1,20 @@
 //! The places of a quadrature on a patch, and how they move with its unknowns.
 
 use super::column::PointColumn;
-use super::contact::FieldContact;
+use super::contact::{FieldContact, FieldTarget};
 use super::cover::Patch;
 use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
+use super::point::smoothstep;
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
-use super::tool::RigidTool;
+use crate::contact::record::{entry, stresses};
+use crate::system::History;
 use crate::tensor::{Dual, Vec3, legendre};
 use std::sync::LazyLock;
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
 pub static GAUSS: LazyLock<Vec<IntervalPoint>> =
-    LazyLock::new(|| legendre(4).into_iter().map(|(eta, weight)| point(eta, weight, 0.0)).collect());
-
-/// The trapezoidal rule, with the mean density of each half,
-static TRAPEZOID: [IntervalPoint; 2] = [point(-1.0, 1.0, 2.0 / 3.0), point(1.0, 1.0, -2.0 / 3.0)];
-/// and Simpson's of an edge, on the halves of it that have its first and its second end.
-static SIMPSON: [[IntervalPoint; 2]; 2] = [
-    [point(-1.0, 2.0 / 3.0, 0.0), point(1.0, 4.0 / 3.0, 0.0)],
-    [point(-1.0, 4.0 / 3.0, 0.0), point(1.0, 2.0 / 3.0, 0.0)],
-];
-
-const fn point(eta: f64, weight: f64, inward: f64) -> IntervalPoint {
-    IntervalPoint { eta, weight, inward }
-}
+    LazyLock::new(|| legendre(4).into_iter().map(|(eta, weight)| IntervalPoint { eta, weight }).collect());
 
 /// A point of the rule on an interval.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +23,6 @@ pub struct IntervalPoint {
     pub eta: f64,
     /// Its weight.
     pub weight: f64,
-    /// As that of a [`FaceSpot`].
-    pub inward: f64,
 }
 
 /// A place of a quadrature on a face.
@@ -44,13 +32,13 @@ pub struct FaceSpot {
     pub xi: [f64; 2],
     /// Area in reference coordinates that it stands for.
     pub weight: f64,
-    /// The density of area counts at the place plus this times the weight: of a closed rule where it is the mean of what the place stands
-    /// for, so that a uniform pressure makes the nodal forces that it should around an axis too.
-    pub inward: [f64; 2],
     /// The corner of the face that it is, where the surface ends there: it stands for no area of its own.
     pub vertex: Option<usize>,
     laid: SpotMap,
 }
+
+/// Shear over pressure between which dual functions end: a corner that slides with its edge first digs itself in from about one on.
+const STEEP: [f64; 2] = [0.5, 0.9];
 
 /// How a place depends on unknowns.
 #[derive(Debug, Clone)]
@@ -64,27 +52,38 @@ enum SpotMap {
 }
 
 impl FieldContact {
-    /// Whether a closed rule (Lobatto; the nodal integration of contact) is laid on a patch: over tools at a crease, in space on whole faces of
-    /// first degree, and where facets of first degree of a curve touch what is straight by their corners. A mean lets a corner go in as
-    /// far as the rest of the face stands off. Of a uniform pressure both kinds of rules make the same nodal forces.
-    pub(super) fn is_closed(&self, patch: &Patch) -> bool {
+    /// Largest share of dual functions on a face under the stresses of its nodes: it ends where friction pushes an edge in.
+    pub(super) fn dual_limit(&self, face: usize, history: &History) -> f64 {
+        let (mut shear, mut pressure) = (0.0, 0.0);
+        for &node in &self.parts.surface.field[face][..self.parts.surface.faces[face].corners()] {
+            for slot in (0..self.pieces).map(|piece| history.slot(self.slot(node, piece))) {
+                let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
+                (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
+            }
+        }
+        let ratio = if pressure > 0.0 { shear / pressure } else { 0.0 };
+        1.0 - smoothstep((ratio - STEEP[0]) / (STEEP[1] - STEEP[0]))[0]
+    }
+
+    /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the
+    /// corners, where others let an edge in as far as the rest of the face stands off and have its pressure a third of the face away.
+    /// So it is at a crease of the surface; at its end where it and what it sees are flat, since it may end on a plane of symmetry; and
+    /// where facets of first degree of a curve touch by their corners what is straight.
+    pub(super) fn is_sharp(&self, patch: &Patch) -> bool {
         let (surface, face) = (&self.parts.surface, patch.face);
-        let first = surface.faces[face].kind.degree == 1;
-        let creased = surface.creased[face] && (surface.plane || (first && patch.seen.is_none()));
-        let touches = |tool: &RigidTool| creased || (first && surface.curved[face] && tool.is_straight(patch.target));
-        self.parts.target.as_tool().is_some_and(touches)
+        let flat = || match &self.parts.target {
+            FieldTarget::Tool(tool) => tool.is_straight(patch.target),
+            FieldTarget::Faces(faces) => !faces.surface.curved[patch.target],
+        };
+        let facet = surface.plane && surface.faces[face].kind.degree == 1 && surface.curved[face];
+        surface.creased[face] || ((surface.ending[face] && !surface.curved[face] || facet) && flat())
     }
 }
 
 impl FaceSpot {
     /// Of an open rule.
     fn new(xi: [f64; 2], weight: f64, laid: SpotMap) -> Self {
-        Self { xi, weight, inward: [0.0; 2], vertex: None, laid }
-    }
-
-    /// The place whose density counts.
-    pub fn dense(&self) -> [f64; 2] {
-        [0, 1].map(|k| self.xi[k] + self.inward[k] * self.weight)
+        Self { xi, weight, vertex: None, laid }
     }
 }
 
@@ -101,23 +100,15 @@ impl PatchInPlace<'_> {
 
     fn quadrature(&self, derivatives: bool) -> Vec<FaceSpot> {
         if self.face.plane {
-            let rule: &[IntervalPoint] = match self.face.face.end() {
-                _ if !self.closed => &GAUSS,
-                None => &TRAPEZOID,
-                Some(end) => &SIMPSON[end],
-            };
             let half = 0.5 * (self.interval[1] - self.interval[0]);
             let both = |a: f64, b: f64| std::array::from_fn(|k| [a, b].get(k).map_or(0.0, |x| 0.5 * x));
-            let place = |&IntervalPoint { eta, weight, inward }: &IntervalPoint| {
+            let place = |&IntervalPoint { eta, weight }: &IntervalPoint| {
                 let laid = SpotMap::Bounded([both(1.0 - eta, 1.0 + eta), both(0.0, 0.0), both(-weight, weight)]);
-                FaceSpot { inward: [inward, 0.0], ..FaceSpot::new([self.place(eta), 0.0], weight * half, laid) }
+                FaceSpot::new([self.place(eta), 0.0], weight * half, laid)
             };
-            return rule.iter().map(place).collect();
+            return GAUSS.iter().map(place).collect();
         }
         let own = self.face.corners();
-        if self.closed {
-            return self.at_corners();
-        }
         if self.patch.seen.is_some() {
             let Some(cut) = &self.cut else { return Vec::new() };
             let laid = PartMap::new(own.len(), cut.moments(Dual::<INTEGRALS>::variable));
@@ -152,18 +143,6 @@ impl PatchInPlace<'_> {
             spots.push(FaceSpot::new([a.re, b.re], weight.re, laid));
         });
         spots
-    }
-
-    /// The corners of a face of first degree in space, each with the integral of its function: a closed rule.
-    fn at_corners(&self) -> Vec<FaceSpot> {
-        let face = self.face.face;
-        let at = |corner: usize| {
-            // Over a quadrilateral the centroid of that function is where a density of first degree has its mean.
-            let (xi, (weight, inward)) =
-                (face.corner_place(corner), if face.corners() == 3 { (1.0 / 6.0, 0.0) } else { (1.0, -2.0 / 3.0) });
-            FaceSpot { inward: xi.map(|xi| inward * xi), ..FaceSpot::new(xi, weight, SpotMap::Whole) }
-        };
-        (0..face.corners()).map(at).collect()
     }
 
     /// Derivatives of a place's coordinates and of its area along an unknown; `bounds` are those of what bounds the patch.

@@ -4,10 +4,17 @@
 //! the corner belongs to several nodes, one for each smooth piece. Each node has the mean of the area vectors of its
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
-use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
+use super::cover::Patch;
+use super::face::{CORNERS, FieldFace, MOST, PlacedFace, ShapeFunctions};
 use crate::mesh::{CREASE, Mesh, Side, Space};
-use crate::tensor::{DisjointSets, Vec3};
+use crate::tensor::{DisjointSets, Vec3, invert};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Factors of the functions of the corners of a face that make another set of them.
+pub type DualFactors = [[f64; CORNERS]; CORNERS];
+
+/// A face so thin has no such set.
+const SINGULAR: f64 = 1e-12;
 
 /// A node of the field.
 #[derive(Debug, Clone)]
@@ -58,8 +65,12 @@ pub struct FieldSurface {
     pub pieces: Vec<usize>,
     /// For each face whether a crease of the surface bounds it, of an edge in both its halves,
     pub creased: Vec<bool>,
-    /// and, of a plane model, whether the surface turns smoothly at one of its ends.
+    /// whether the surface ends there, likewise,
+    pub ending: Vec<bool>,
+    /// and whether it turns smoothly at one of its corners.
     pub curved: Vec<bool>,
+    /// For each such face what makes the functions of its corners biorthogonal to these.
+    pub duals: Vec<Option<DualFactors>>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
     /// Whether the model is axisymmetric.
@@ -101,7 +112,8 @@ impl FieldSurface {
         };
         let (mut pieces, mut field) =
             (DisjointSets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
-        let (mut nodes, mut creased, mut curved) = (Vec::new(), BTreeSet::new(), vec![false; self.faces.len()]);
+        let (mut nodes, mut curved) = (Vec::new(), vec![false; self.faces.len()]);
+        let (mut creased, mut ending) = (BTreeSet::new(), BTreeSet::new());
         for (&node, corners) in &around {
             let mut sets = DisjointSets::new(corners.len());
             for i in 0..corners.len() {
@@ -109,7 +121,7 @@ impl FieldSurface {
                     if smooth(corners[i].0, corners[j].0) {
                         sets.join(i, j);
                         let pair = [corners[i].0, corners[j].0];
-                        if self.plane && normals[pair[0]].cross(normals[pair[1]])[2].abs() > CURVED {
+                        if normals[pair[0]].cross(normals[pair[1]]).norm() > CURVED {
                             pair.into_iter().for_each(|face| curved[face] = true);
                         }
                         pieces.join(corners[i].0, corners[j].0);
@@ -117,8 +129,11 @@ impl FieldSurface {
                 }
             }
             let roots: Vec<usize> = (0..corners.len()).filter(|&i| sets.root(i) == i).collect();
+            let sides = || corners.iter().map(|&(f, _)| self.faces[f].side);
             if roots.len() > 1 {
-                creased.extend(corners.iter().map(|&(f, _)| self.faces[f].side));
+                creased.extend(sides());
+            } else if if self.plane { corners.len() == 1 } else { self.is_open(corners) } {
+                ending.extend(sides());
             }
             for &root in &roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
@@ -131,8 +146,46 @@ impl FieldSurface {
                 nodes.push(FieldNode { node, support, is_vertex, on_axis });
             }
         }
-        self.creased = self.faces.iter().map(|face| creased.contains(&face.side)).collect();
+        let of = |sides: BTreeSet<Side>| self.faces.iter().map(|face| sides.contains(&face.side)).collect();
+        (self.creased, self.ending) = (of(creased), of(ending));
+        let dual = |f: usize| (self.creased[f] || self.ending[f] || curved[f]).then(|| self.dual(f, mesh))?;
+        self.duals = (0..self.faces.len()).map(dual).collect();
         (self.pieces, self.nodes, self.field, self.curved) = (pieces.labels(), nodes, field, curved);
+    }
+
+    /// Factors `D M^-1` of the functions of the corners of a face, with `M = int N N^t dA` and `D` its sums (Wohlmuth, SIAM J. Numer.
+    /// Anal. 38, 2000).
+    fn dual(&self, face: usize, mesh: &Mesh) -> Option<DualFactors> {
+        let face = &self.faces[face];
+        let (rest, count) = (face.at_rest(mesh), face.corners());
+        let (mut mass, mut inverse) = ([[0.0; CORNERS]; CORNERS], [[0.0; CORNERS]; CORNERS]);
+        let rule = face.cell().gauss[2]?;
+        for (point, weight) in rule.points.iter().zip(rule.weights) {
+            let xi = [point[0], point[1]];
+            let (n, area) = (face.corner_functions(xi).n, weight * self.density_at(face, &rest, xi));
+            (0..count).for_each(|i| (0..count).for_each(|j| mass[i][j] += area * n[i] * n[j]));
+        }
+        let sums = mass.map(|row| row.iter().sum::<f64>());
+        invert(&mut mass[..count], &mut inverse[..count], SINGULAR).then(|| {
+            inverse.iter_mut().zip(sums).for_each(|(row, sum)| row.iter_mut().for_each(|entry| *entry *= sum));
+            inverse
+        })
+    }
+
+    /// Functions of the nodes of the field on a patch where those of the corners of its face are these.
+    pub fn functions(&self, patch: &Patch, corners: &ShapeFunctions) -> ShapeFunctions {
+        let mut functions = *corners;
+        if let Some(dual) = self.duals[patch.face].filter(|_| patch.dual > 0.0) {
+            for (i, row) in dual.iter().enumerate() {
+                let of =
+                    |value: &dyn Fn(usize) -> f64| -> f64 { row.iter().enumerate().map(|(j, d)| d * value(j)).sum() };
+                functions.n[i] += patch.dual * (of(&|j| corners.n[j]) - corners.n[i]);
+                for a in 0..2 {
+                    functions.dn[i][a] += patch.dual * (of(&|j| corners.dn[j][a]) - corners.dn[i][a]);
+                }
+            }
+        }
+        functions
     }
 
     /// Whether faces in space around a common corner leave a side of it open.
@@ -309,7 +362,7 @@ impl FieldSurface {
 }
 
 /// Angle between faces from which on they stand for a curved piece.
-const CURVED: f64 = 1e-3;
+const CURVED: f64 = 1e-4;
 
 /// Angle below which an open piece of the surface has a corner at a node, between that of a block and that of a straight edge.
 const CORNER: f64 = 0.75 * std::f64::consts::PI;

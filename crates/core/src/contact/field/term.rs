@@ -105,7 +105,7 @@ impl Term for FieldContact {
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let augmented = self.parts.options.augmentation.is_some();
-        let before = Configuration::new(self, &accepted.u);
+        let before = Configuration::new(self, &accepted.u, None);
         let shifts = if augmented { history.slot(self.slots()) } else { &[] };
         let law = self.parts.law.at(at.step, at.step_time)?;
         let normal = self.kept_penalty(history);

@@ -186,8 +186,9 @@ impl Configuration<'_> {
                 if feet[foot].is_none() && !has_foot {
                     let tip = Some(self.landing(place, &places, tool, share));
                     let near = [place.xi; 2];
-                    let (seen, vertices) = (None, Default::default());
-                    let patch = Patch { face: place.face, target: foot, ends: [None; 2], near, seen, vertices, tip };
+                    let (seen, dual, vertices) = (None, 0.0, Default::default());
+                    let patch =
+                        Patch { face: place.face, target: foot, ends: [None; 2], near, seen, dual, vertices, tip };
                     feet[foot] = Some(TipFoot { patch, gap: place.gap });
                 }
             }

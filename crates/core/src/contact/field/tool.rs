@@ -109,9 +109,12 @@ impl RigidTool {
             RigidShape::Space(_, pieces) => pieces.count(),
         }
     }
-    /// Whether a piece is of straight lines in the plane.
+    /// Whether a piece is straight, flat in space.
     pub fn is_straight(&self, piece: usize) -> bool {
-        matches!(&self.shape, RigidShape::Plane(tool, pieces) if tool.is_straight(&pieces[piece]))
+        match &self.shape {
+            RigidShape::Plane(tool, pieces) => tool.is_straight(&pieces[piece]),
+            RigidShape::Space(_, pieces) => pieces.is_flat(piece),
+        }
     }
     /// Has what is small lie within a face. In the plane roundings of radii up to `edge` part the tool as edges do, and those up to
     /// `rounding` and edges are tips; in space pieces may lie within a face of `size`.

@@ -17,6 +17,8 @@ const TOGETHER: f64 = 1e-7;
 const INWARD: f64 = 0.1;
 /// Flanks of an edge look away from each other by less than this cosine.
 const BACK: f64 = -0.99;
+/// Normals of a flat piece agree to rounding.
+const FLAT: f64 = 1e-12;
 
 /// The smooth pieces of a tool in space.
 #[derive(Debug, Clone)]
@@ -25,6 +27,8 @@ pub struct SmoothPieces {
     labels: Vec<usize>,
     /// The facets of each piece, with a tree over them.
     pieces: Vec<(Vec<usize>, BoxTree)>,
+    /// Whether each is flat.
+    flat: Vec<bool>,
 }
 
 impl SmoothPieces {
@@ -32,6 +36,15 @@ impl SmoothPieces {
     pub fn count(&self) -> usize {
         self.pieces.len()
     }
+    /// Whether a piece is flat.
+    pub fn is_flat(&self, piece: usize) -> bool {
+        self.flat[piece]
+    }
+}
+
+/// Middles of the edges of a facet with so many corners, in reference coordinates.
+fn edge_middles(corners: usize) -> &'static [[f64; 2]] {
+    if corners == 3 { &[[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]] } else { &[[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]] }
 }
 
 impl SpaceTool {
@@ -39,9 +52,7 @@ impl SpaceTool {
     pub fn smooth_pieces(&self) -> SmoothPieces {
         let mut sets = DisjointSets::new(self.facets().len());
         for (i, facet) in self.facets().iter().enumerate() {
-            let triangle: &[[f64; 2]] = &[[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
-            let square: &[[f64; 2]] = &[[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]];
-            for &s in if facet.corners().len() == 3 { triangle } else { square } {
+            for &s in edge_middles(facet.corners().len()) {
                 let (point, normal) = (facet.point(s), facet.normal(s));
                 for j in self.around(point, TOGETHER * self.size()) {
                     let other = self.facets()[j].nearest(point);
@@ -55,11 +66,19 @@ impl SpaceTool {
         let labels = sets.labels();
         let mut pieces = vec![Vec::new(); labels.iter().max().map_or(0, |last| last + 1)];
         labels.iter().enumerate().for_each(|(facet, &piece)| pieces[piece].push(facet));
+        let flat = |facets: &Vec<usize>| {
+            let normals = || {
+                let facets = facets.iter().map(|&facet| &self.facets()[facet]);
+                facets.flat_map(|facet| edge_middles(facet.corners().len()).iter().map(|&s| facet.normal(s)))
+            };
+            normals().zip(normals().skip(1)).all(|(one, next)| one.dot(next) > 1.0 - FLAT)
+        };
+        let flat = pieces.iter().map(flat).collect();
         let tree = |facets: Vec<usize>| {
             let boxes: Vec<BoundingBox> = facets.iter().map(|&facet| self.facets()[facet].bounds()).collect();
             (facets, BoxTree::new(&boxes, TOGETHER * self.size()))
         };
-        SmoothPieces { labels, pieces: pieces.into_iter().map(tree).collect() }
+        SmoothPieces { labels, pieces: pieces.into_iter().map(tree).collect(), flat }
     }
 
     /// The middle of a piece that is smaller than `size`.

@@ -48,6 +48,8 @@ pub struct FieldAttempt<'a> {
     pub tips_before: Vec<Option<TipFoot>>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
+    /// Largest share of dual functions on each.
+    pub duals: Vec<f64>,
     /// Largest gap at which the target is seen.
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
@@ -84,7 +86,7 @@ pub struct FieldAttempt<'a> {
 
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> FieldSearch {
-        let now = Configuration::new(self.contact, u, Some(self.history));
+        let now = Configuration { duals: &self.duals, ..Configuration::new(self.contact, u) };
         let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
         self.contact
             .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
@@ -545,7 +547,7 @@ impl FieldAttempt<'_> {
             return false;
         }
         let mut changed = false;
-        let found = Configuration::new(self.contact, u, None).tips(self.contact.longest, Some(&[]), |_| None);
+        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]), |_| None);
         for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
             if let (Some(had), Some(share)) = (share(before), share(now))
                 && share < CHANGED * had

@@ -9,7 +9,7 @@ use super::point::smoothstep;
 use super::space::{CutFace, SeenNodes, foot, nearby, whole};
 use super::tool::ToolInPlace;
 use crate::mesh::Mesh;
-use crate::system::{Dofs, History};
+use crate::system::Dofs;
 use crate::tensor::{BoundingBox, Vec3};
 
 /// Both sides of a contact at given unknowns.
@@ -20,8 +20,8 @@ pub struct Configuration<'a> {
     pub placed: Vec<PlacedFace>,
     /// Outward unit normals at the nodes of the field; none where nothing asks for them.
     pub normals: Vec<Vec3>,
-    /// Largest share of dual functions on each face.
-    pub duals: Vec<f64>,
+    /// Largest share of dual functions on each face; none known is one.
+    pub duals: &'a [f64],
     /// The target.
     pub target: TargetInPlace<'a>,
 }
@@ -45,15 +45,13 @@ impl FieldTarget {
 }
 
 impl<'a> Configuration<'a> {
-    /// At unknowns `u`; stresses are those of the accepted state, where it has a history.
-    pub fn new(contact: &'a FieldContact, u: &[f64], history: Option<&History>) -> Self {
+    /// At unknowns `u`.
+    pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
         let (surface, site) = (contact.surface(), contact.site());
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
-        let dual = |face: usize| history.map_or(1.0, |history| contact.dual_limit(face, history));
-        let duals = (0..surface.faces.len()).map(dual).collect();
-        Self { contact, placed, normals, duals, target: contact.parts.target.at(site, u) }
+        Self { contact, placed, normals, duals: &[], target: contact.parts.target.at(site, u) }
     }
 
     /// A face of the surface.
@@ -165,7 +163,7 @@ impl Configuration<'_> {
         }
         let face = &self.contact.parts.surface.faces[patch.face];
         let covered = parts.into_iter().sum::<f64>() / face.area();
-        smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals[patch.face]
+        smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals.get(patch.face).unwrap_or(&1.0)
     }
 
     /// Whether a corner of a face at which the surface ends sees a body within a patch.

@@ -31,7 +31,7 @@ impl FieldContact {
     /// What takes the nodes of the undeformed surface out of the target.
     pub fn moves(&self) -> Vec<Move> {
         let still = vec![0.0; self.parts.dofs.count()];
-        let (now, mut moves) = (Configuration::new(self, &still, None), BTreeMap::new());
+        let (now, mut moves) = (Configuration::new(self, &still), BTreeMap::new());
         let found = self.supports(&still, self.reach(&still), None);
         for (number, _) in found.supports.iter().flat_map(|support| &support.patches) {
             let patch = &found.patches[*number].patch;

@@ -114,7 +114,9 @@ impl FieldContact {
     /// What each node sees at displacements `u`, as far as the accepted state alone tells; of the tips all feet, where that has a
     /// history.
     pub(super) fn supports(&self, u: &[f64], reach: f64, history: Option<&History>) -> FieldSearch {
-        let (now, depths) = (Configuration::new(self, u, history), self.depths(u));
+        let (now, depths) = (Configuration::new(self, u), self.depths(u));
+        let duals = history.map_or(Vec::new(), |history| self.dual_limits(&now.placed, history));
+        let now = Configuration { duals: &duals, ..now };
         let tips = match history {
             Some(history) => now.tips(self.longest, None, self.known_feet(history)),
             None => now.tips(self.longest, Some(&[]), |_| None),

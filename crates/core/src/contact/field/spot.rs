@@ -3,7 +3,7 @@
 use super::column::PointColumn;
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::Patch;
-use super::face::CORNERS;
+use super::face::{CORNERS, PlacedFace};
 use super::patch::{BoundRates, PatchInPlace};
 use super::point::smoothstep;
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
@@ -39,6 +39,8 @@ pub struct FaceSpot {
 
 /// Shear over pressure between which dual functions end: a corner that slides with its edge first digs itself in from about one on.
 const STEEP: [f64; 2] = [0.5, 0.9];
+/// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
+const BENT: [f64; 2] = [0.05, 0.2];
 
 /// How a place depends on unknowns.
 #[derive(Debug, Clone)]
@@ -52,17 +54,34 @@ enum SpotMap {
 }
 
 impl FieldContact {
-    /// Largest share of dual functions on a face under the stresses of its nodes: it ends where friction pushes an edge in.
-    pub(super) fn dual_limit(&self, face: usize, history: &History) -> f64 {
-        let (mut shear, mut pressure) = (0.0, 0.0);
-        for &node in &self.parts.surface.field[face][..self.parts.surface.faces[face].corners()] {
-            for slot in (0..self.pieces).map(|piece| history.slot(self.slot(node, piece))) {
-                let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
-                (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
+    /// Largest share of dual functions on each face in a state with these stresses: it ends where friction pushes an edge in, and
+    /// at an end of the surface that bends.
+    pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<f64> {
+        let surface = &self.parts.surface;
+        let normal = |face: usize| {
+            let [a, b] =
+                surface.faces[face].shape(surface.faces[face].middle()).tangents(placed[face].nodes(), surface.plane);
+            a.cross(b).unit()
+        };
+        let limit = |face: usize| {
+            if surface.duals[face].is_none() {
+                return 1.0;
             }
-        }
-        let ratio = if pressure > 0.0 { shear / pressure } else { 0.0 };
-        1.0 - smoothstep((ratio - STEEP[0]) / (STEEP[1] - STEEP[0]))[0]
+            let (mut shear, mut pressure, mut bend) = (0.0, 0.0, 0.0_f64);
+            for &node in &surface.field[face][..surface.faces[face].corners()] {
+                for slot in (0..self.pieces).map(|piece| history.slot(self.slot(node, piece))) {
+                    let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
+                    (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
+                }
+                for &(other, _) in surface.nodes[node].support.iter().filter(|_| !surface.creased[face] && !surface.curved[face]) {
+                    bend = bend.max(normal(face).cross(normal(other)).norm());
+                }
+            }
+            let ratio = if pressure > 0.0 { shear / pressure } else { 0.0 };
+            let fade = |x: f64, [from, to]: [f64; 2]| 1.0 - smoothstep((x - from) / (to - from))[0];
+            fade(ratio, STEEP) * fade(bend, BENT)
+        };
+        (0..surface.faces.len()).map(limit).collect()
     }
 
     /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the

@@ -105,7 +105,7 @@ impl Term for FieldContact {
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let augmented = self.parts.options.augmentation.is_some();
-        let before = Configuration::new(self, &accepted.u, None);
+        let before = Configuration::new(self, &accepted.u);
         let shifts = if augmented { history.slot(self.slots()) } else { &[] };
         let law = self.parts.law.at(at.step, at.step_time)?;
         let normal = self.kept_penalty(history);
@@ -114,6 +114,7 @@ impl Term for FieldContact {
             history,
             accepted: &accepted.u,
             tips_before: self.tips_before(&before, history),
+            duals: self.dual_limits(&before.placed, history),
             before,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),

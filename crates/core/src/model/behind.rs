@@ -99,6 +99,9 @@ pub fn boundary_behind(mesh: &Mesh, sides: &[Side], cells: impl Iterator<Item = 
 
 /// Sides whose faces differ in size by less than this factor are alike.
 const ALIKE: f64 = 1.2;
+/// Faces of the smaller of two flat sides over those of the larger up to which it carries the field: a stiff block on a soft one is right
+/// to a percent up to there, and 1 to 3 per cent too soft beyond.
+const COARSE: f64 = 3.0;
 /// Facets that stand off a smooth surface by more than this part of their size are those of a curve.
 const CURVED: f64 = 1e-3;
 
@@ -140,9 +143,17 @@ impl<'a> FieldSides<'a> {
 }
 
 /// Whether `other` is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
-/// facets the other side cannot all follow; else the finer, since a coarse field on a fine target misses what lies between its
-/// nodes.
+/// facets the other side cannot all follow; else the smaller, whose edges lie within the other, as long as it is not much coarser, and
+/// of sides as large the finer, since a coarse field on a fine target misses what lies between its nodes.
 fn suits_better(other: &FieldSurface, surface: &FieldSurface, mesh: &Mesh) -> bool {
     let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
-    if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
+    if bow.max(own_bow) > CURVED {
+        return fine > ALIKE * own;
+    }
+    let [extent, own_extent] = [other, surface].map(|side| side.extent(mesh));
+    if extent * ALIKE < own_extent {
+        fine < COARSE * own
+    } else {
+        own > if own_extent * ALIKE < extent { COARSE } else { ALIKE } * fine
+    }
 }

@@ -73,7 +73,9 @@ impl FieldContact {
                     let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
                     (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
                 }
-                for &(other, _) in surface.nodes[node].support.iter().filter(|_| !surface.creased[face] && !surface.curved[face]) {
+                for &(other, _) in
+                    surface.nodes[node].support.iter().filter(|_| !surface.creased[face] && !surface.curved[face])
+                {
                     bend = bend.max(normal(face).cross(normal(other)).norm());
                 }
             }

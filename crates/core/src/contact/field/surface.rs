@@ -320,6 +320,12 @@ impl FieldSurface {
         (0..self.faces.len()).map(|f| self.size(f, mesh)).sum::<f64>() / self.faces.len().max(1) as f64
     }
 
+    /// Length of its edges in all, in space the root of the area of its faces.
+    pub fn extent(&self, mesh: &Mesh) -> f64 {
+        let sizes = (0..self.faces.len()).map(|f| self.size(f, mesh));
+        if self.plane { sizes.sum() } else { sizes.map(|size| size * size).sum::<f64>().sqrt() }
+    }
+
     /// Mean size of its faces, and the largest sagitta over it.
     pub fn coarseness(&self, mesh: &Mesh) -> [f64; 2] {
         let mean = self.mean_size(mesh);

@@ -124,3 +124,65 @@ fn facets_of_a_pin_in_a_hole_of_its_radius_are_told() {
         assert_eq!(said.is_some_and(|said| said.contains("of the motion")), told);
     }
 }
+
+/// The same rings in space with cells of first degree, `[around, along]` of each.
+fn rings_in_space([i, o]: [[usize; 2]; 2]) -> Model {
+    let part = |name: &str, [from, to]: [f64; 2], [around, along]: [usize; 2]| {
+        format!(
+            "mesh.part.{name}.box = {{ from = [{from}, 0.0, 0.0], to = [{to}, 90.0, 4.0], cells = [3, {around}, {along}], cell = \"hex8\" }}\n"
+        )
+    };
+    let parts = part("i", [16.0, 20.015], i) + &part("o", [19.985, 24.0], o);
+    let deck = |mesh: &str| {
+        rings(mesh, "")
+            .replace("plane-strain", "solid")
+            .replace(".outer", ".right")
+            .replace(".inner", ".left")
+            .replace(".start", ".bottom")
+            .replace("\"i.end\"", "\"i.top\"")
+            .replace("\"o.end\"", "\"o.top\", \"i.back\", \"o.back\", \"i.front\", \"o.front\"")
+    };
+    let mut mesh = (*made(&deck(&parts), &[]).model.mesh).clone();
+    for x in &mut mesh.points {
+        let (sin, cos) = x[1].to_radians().sin_cos();
+        (x[0], x[1]) = (x[0] * cos, x[0] * sin);
+    }
+    let made =
+        read_with(&deck("mesh.file = \"rings.msh\""), "test.toml", Path::new(""), &[], Some(mesh)).and_then(build);
+    made.unwrap_or_else(|found| panic!("{}", found.render(false))).model
+}
+
+/// Facets of rings that do not match are told with what they do to the mean pressure, whatever the shape of the faces; of rings that match
+/// nothing is said.
+#[test]
+fn facets_of_rings_in_space_are_told_as_in_the_plane() {
+    let plane = |[i, o]: [usize; 2]| {
+        let annuli = annuli("quad4", 20.015).replace("[3, 20]", &format!("[3, {i}]"));
+        made(&rings(&annuli.replace("[3, 26]", &format!("[3, {o}]")), ""), &[]).model
+    };
+    let look = |model: Model| {
+        let keep = run(&model);
+        let state = &keep.states[0];
+        let (contact, history) = (&model.field_contacts[0], &state.histories[model.first_contact()]);
+        let (records, said) = (contact.records(&state.u, history), contact.facets(&state.u, history));
+        let sum = |of: &dyn Fn(&asperity::contact::ContactRecord) -> f64| records.iter().map(of).sum::<f64>();
+        let mean = sum(&|record| record.pressure * record.area) / sum(&|record| record.area);
+        let told = said.map(|said| {
+            let part = said.split(" %").next().unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap() / 100.0;
+            if said.contains("deeper") { part } else { -part }
+        });
+        (mean / LAME - 1.0, told)
+    };
+    for cells in [[8, 6], [6, 8], [16, 12], [24, 31]] {
+        let [i, o] = cells;
+        for model in [plane(cells), rings_in_space([[i, 1], [o, 2]]), rings_in_space([[i, 3], [o, 1]])] {
+            let (found, told) = look(model);
+            let told = told.unwrap();
+            let right = if found == -1.0 { told < found } else { (told - found).abs() < 0.03 * (1.0 + found.abs()) };
+            assert!(right, "{cells:?}: {found} {told}");
+        }
+    }
+    for model in [plane([12, 12]), rings_in_space([[12, 1], [12, 2]])] {
+        assert_eq!(look(model).1, None);
+    }
+}

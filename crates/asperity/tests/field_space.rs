@@ -232,10 +232,12 @@ fn tangents_over_tools_that_turn_are_exact() {
     }
 }
 
-/// A plate pressed on a block and turned by 45 degrees: moment and heat do not depend on the number of increments.
+/// A plate pressed on a block and turned by 45 degrees, and the block turned under the plate: moment and heat depend neither on the number of
+/// increments nor on which of the two turns.
 #[test]
 fn friction_of_a_plate_that_turns_follows_the_arc() {
-    let turned = |cell: &str, count: usize| {
+    let turned = |cell: &str, count: usize, plate: bool| {
+        let turn = if plate { "motion.plate = { rotation_z = 45.0 }" } else { "motion.hub = { rotation_z = -45.0 }" };
         let deck = format!(
             r#"
 version = 1
@@ -245,12 +247,13 @@ material.rubber.elastic = {{ young = 1e3, poisson = 0.0 }}
 body.block = {{ material = "rubber"{} }}
 tool.plate.plane = {{ at = [0.0, 0.0, 0.5], normal = [0.0, 0.0, -1.0], side = 8.0 }}
 contact.face = {{ surface = "block.front", target = "plate", law.coulomb = {{ friction = 0.2 }} }}
+rigid.hub = {{ group = "block.back", reference = [0.0, 0.0, 0.0] }}
 [[step]]
-displacement."block.back" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+motion.hub = {{ z = 0.0 }}
 motion.plate = {{ z = -0.005 }}
 increments.count = 1
 [[step]]
-motion.plate = {{ rotation_z = 45.0 }}
+{turn}
 increments.count = {count}
 "#,
             keep_degree(cell)
@@ -267,9 +270,12 @@ increments.count = {count}
         ["tool.plate.moment.z", "energy.missing"].map(|name| last(&columns, name) / limit)
     };
     for cell in ["hex8", "hex20"] {
-        let [once, often] = [1, 6].map(|count| turned(cell, count));
-        assert!((once[0] / often[0] - 1.0).abs() < 1e-3, "{cell}: {once:?} {often:?}");
-        assert!(once[1].abs() < 0.01, "{cell}: {once:?}");
+        let often = turned(cell, 6, true);
+        for plate in [true, false] {
+            let once = turned(cell, 1, plate);
+            assert!((once[0] / often[0] - 1.0).abs() < 1e-3, "{cell}: {once:?} {often:?}");
+            assert!(once[1].abs() < 0.01, "{cell}: {once:?}");
+        }
     }
 }
 

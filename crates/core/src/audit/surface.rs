@@ -111,6 +111,10 @@ impl Surface {
         if centre {
             let mut weights = vec![0.0; nodes.len()];
             (kind.shape)(kind.center(), &mut weights, &mut vec![[0.0; 3]; nodes.len()]);
+            // No corner of a piece: where a thin cell is curved that of the side itself lies over a piece of another.
+            if let (3, 6) = (corners, nodes.len()) {
+                weights = vec![0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0];
+            }
             let nodes = nodes.iter().copied().zip(weights).collect();
             self.vertices.push(Vertex { nodes, sides: vec![number] });
             vertices.push(self.vertices.len() - 1);

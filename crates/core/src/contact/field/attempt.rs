@@ -7,7 +7,7 @@ use super::face::moved;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::nodes::NodesInPlace;
-use super::point::Touched;
+use super::point::{Facing, Touched};
 use super::space::{Spread, spread};
 use super::spot::{GAUSS, IntervalPoint};
 use super::stencil::{COUNT, NodeSums, StencilInPlace};
@@ -174,11 +174,17 @@ impl FieldAttempt<'_> {
                 let (foot, now) = (before.closest(patch.target, place.x), at.tool.as_ref()?);
                 let carry = |v: Vec3| now.rotate(before.rotate_back(v));
                 let slopes = place.tangents.map(|tangent| carry(foot.slide(tangent)));
-                let facing = (-carry(foot.normal), place.tangents.map(|tangent| -carry(foot.turned(tangent))));
+                let [a, b] = face.at(face.face.middle()).tangents;
+                let m = a.cross(b);
+                let facing = Facing {
+                    n: -carry(foot.normal),
+                    slopes: place.tangents.map(|tangent| -carry(foot.turned(tangent))),
+                    duals: [b.cross(m), m.cross(a)].map(|dual| carry(dual * m.dot(m).recip())),
+                };
                 Some(Touched {
                     now: now.place(before.withdraw(foot.point)),
                     slopes,
-                    facing: now.is_turned(before).then_some(facing),
+                    facing: Some(facing),
                     face: None,
                     tip: Vec3::zero(),
                 })

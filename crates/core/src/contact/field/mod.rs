@@ -18,7 +18,7 @@
 //! `support` is what such a search finds; `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all
 //! that follows from it along a `column` of the tangent, `points` all of a patch, which the `nodes` of its face share, `stencil` their
 //! sums for one node, with the share of a vertex of the body, `tip` the vertex of a wedge or a rounding within a face, `twist` the slip
-//! of a tool that turns; `attempt` and `term` are the ones that equilibrium knows, `stiffen` raises the penalty, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
+//! over a tool beside which the surface turns; `attempt` and `term` are the ones that equilibrium knows, `stiffen` raises the penalty, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
 //! differs is the cover of a face, which is in `space`, and the pose of a tool.
 
 mod attempt;

@@ -33,12 +33,23 @@ pub struct Touched {
     pub now: Vec3,
     /// Its derivatives along the reference coordinates of the place.
     pub slopes: [Vec3; 2],
-    /// Over a tool that turns: the direction of the gap there, moved with the tool, and its derivatives along these coordinates.
-    pub facing: Option<(Vec3, [Vec3; 2])>,
+    /// Over a tool: how the surface stood there.
+    pub facing: Option<Facing>,
     /// The face of a body and the shape functions there.
     pub face: Option<(usize, ShapeFunctions)>,
     /// Of a tip, over whose place on the surface this is: present position of the tool's point that lay there.
     pub tip: Vec3,
+}
+
+/// How a surface stood over a tool at the accepted state, moved with the tool.
+#[derive(Debug, Clone, Copy)]
+pub struct Facing {
+    /// The direction of the gap,
+    pub n: Vec3,
+    /// and its derivatives along the reference coordinates of the place.
+    pub slopes: [Vec3; 2],
+    /// In space the vectors that are dual to the tangents in the middle of the face.
+    pub duals: [Vec3; 2],
 }
 
 /// A quadrature point of a patch.

@@ -191,39 +191,55 @@ impl FieldContact {
     /// Facets whose mean distance is not that of the curved surfaces they stand for: what they add to an overlap that is to be pressed
     /// apart, or take from it, is pressure; so is what they add to the motion that presses one surface into another that it fits.
     pub fn facets(&self, u: &[f64], history: &History) -> Option<String> {
-        let faces = self.parts.target.as_faces().filter(|_| self.parts.options.overlap != Overlap::Fit)?;
-        // Of a parabola over a chord the mean height is two thirds of the largest.
-        let stands = |surface: &FieldSurface| {
-            let all = (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.parts.mesh)).sum::<f64>();
-            2.0 / 3.0 * all / surface.nodes.len().max(1) as f64
-        };
-        let apart = (stands(&self.parts.surface) - stands(&faces.surface)).abs();
+        self.parts.target.as_faces().filter(|_| self.parts.options.overlap != Overlap::Fit)?;
         let overlaps =
             (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
         let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
         // A few nodes that touch are no fit.
         let pressed = 4.0 * count > self.nodal_slots() as f64;
-        let clearance = if pressed { Some(0.0) } else { self.clearance() }?;
-        let (of, size) = match pressed {
-            true => ("overlap", sum / count),
-            false => ("motion beyond the clearance", self.motion(u) - clearance),
+        let clearance = if pressed { -sum / count } else { self.clearance()? };
+        let deeper = self.deeper();
+        // What the curved surfaces overlap by, and where that is nothing what moves them into each other.
+        let overlap = -(clearance + deeper);
+        let (of, size) = match overlap > MISPLACED * deeper.abs() {
+            true => ("overlap", overlap),
+            false => ("motion beyond the clearance", self.motion(u) + overlap),
         };
-        let curved = apart > ROUNDING * self.parts.surface.mean_size(&self.parts.mesh);
-        (curved && size > 0.0 && apart > MISPLACED * size).then(|| {
+        let curved = deeper.abs() > ROUNDING * self.parts.surface.mean_size(&self.parts.mesh);
+        (curved && size > 0.0 && deeper.abs() > MISPLACED * size).then(|| {
             let [all, closed] = [self.nodal_slots(), self.closed(history).count()];
-            let peak = match 10 * closed < 9 * all && closed > 0 && clearance <= apart {
+            let peak = match 10 * closed < 9 * all && closed > 0 && clearance <= deeper.abs() {
                 true => format!(" in the mean, its peak {:.1} times too high and more, as {closed} of {all} nodes bear", all as f64 / closed as f64),
                 false => String::new(),
             };
             let fit = if pressed { "" } else { ", or the clearance of a smooth fit by overlap = \"fit\"" };
+            let (way, off) = match deeper > 0.0 {
+                true => ("deeper in each other", "the pressure is too high by about as much"),
+                false if -deeper < size => ("farther apart", "the pressure is too low by about as much"),
+                false => ("farther apart", "little or nothing is left of the pressure"),
+            };
             format!(
-                "contact '{}': its facets stand {apart:.2e} farther apart, or less, than the curved surfaces that they are meant for, \
-                 {:.0} % of the {of} of {size:.2e}, and the pressure is off by about as much{peak}; cells of second degree on both sides, \
-                 matching or finer facets{fit}",
+                "contact '{}': its facets stand {:.2e} {way} than the curved surfaces that they are meant for, {:.0} % of the {of} of \
+                 {size:.2e}, and {off}{peak}; cells of second degree on both sides, matching or finer \
+                 facets{fit}",
                 self.parts.name,
-                100.0 * apart / size
+                deeper.abs(),
+                100.0 * deeper.abs() / size
             )
         })
+    }
+
+    /// By how much the facets of both sides stand deeper in each other than smooth surfaces, where they see each other before any motion.
+    fn deeper(&self) -> f64 {
+        let (mesh, still) = (&self.parts.mesh, vec![0.0; self.parts.dofs.count()]);
+        let mut rises = self.parts.surface.rises(mesh);
+        rises.extend(self.parts.target.as_faces().into_iter().flat_map(|faces| faces.surface.rises(mesh)));
+        let (mut sum, mut whole) = (0.0, 0.0);
+        self.each_seen(&still, (self.reach(&still), None), |_, stencil, sums| {
+            sum += stencil.sides(sums).map(|(side, _, area)| area * rises[&side]).sum::<f64>();
+            whole += sums.area;
+        });
+        if whole > 0.0 { -sum / whole } else { 0.0 }
     }
 
     /// The distance in which most of the surface lay to the target before any motion, up to what facets leave surfaces that fit; none where

@@ -6,9 +6,9 @@
 
 use super::contact::FieldContact;
 use super::cover::Patch;
-use super::face::ShapeFunctions;
+use super::face::{FieldFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
-use super::point::{PatchPoint, PointRates, Sight};
+use super::point::{Facing, PatchPoint, PointRates, Sight};
 use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
@@ -58,25 +58,47 @@ impl NodeRates {
 #[derive(Debug, Clone, Copy)]
 struct CarriedTriad {
     line: Option<MaterialLine>,
-    n: Vec3,
-    /// Derivatives of `n` along the reference coordinates of the place.
-    slopes: [Vec3; 2],
+    facing: Facing,
     e: [Vec3; 2],
 }
 
 impl CarriedTriad {
-    fn twist(&self, point: &PatchPoint, e: [Vec3; 2]) -> Twist {
-        Twist::of(&[point.n, e[0], e[1]], &[self.n, self.e[0], self.e[1]], point.v - point.n * point.gap)
+    fn twist(&self, point: &PatchPoint, e: [Vec3; 2], middle: &FaceMiddle) -> Twist {
+        // In the plane there is one line alone.
+        let [re, im] = self.line.map_or([1.0, 0.0], |_| self.turned(&e, &self.e, &middle.tangents));
+        let [cosine, sine] = [re, im].map(|z| z / re.hypot(im));
+        let triad = [point.n, e[0] * cosine + e[1] * sine, e[1] * cosine - e[0] * sine];
+        Twist::of(&triad, &[self.facing.n, self.e[0], self.e[1]], point.v - point.n * point.gap)
     }
 
-    /// Its spin where the place moves on the face.
-    fn spin(&self, dxi: [f64; 2]) -> Vec3 {
-        if dxi == [0.0; 2] {
-            return Vec3::zero();
-        }
-        let dn = self.slopes[0] * dxi[0] + self.slopes[1] * dxi[1];
-        let de = self.line.map_or([dn.left(), Vec3::zero()], |line| line.rates(None, (self.n, dn), &self.e));
-        spin(&[self.n, self.e[0], self.e[1]], &[dn, de[0], de[1]])
+    /// Cosine and sine, by a common factor, of the angle by which the surface turns about the gap beyond the line that its tangents follow:
+    /// the rotation of its gradient in the plane, linear in both pairs of tangents and those in the middle of the face.
+    fn turned(&self, e: &[Vec3; 2], f: &[Vec3; 2], tangents: &[Vec3; 2]) -> [f64; 2] {
+        tangents.iter().zip(&self.facing.duals).fold([0.0; 2], |[re, im], (now, dual)| {
+            let ([a, b], [c, d]) = (e.map(|e| e.dot(*now)), f.map(|f| f.dot(*dual)));
+            [re + a * c + b * d, im + b * c - a * d]
+        })
+    }
+
+    /// Rates of both tangents where the place moves on the face.
+    fn rates(&self, dxi: [f64; 2]) -> (Vec3, [Vec3; 2]) {
+        let dn = self.facing.slopes[0] * dxi[0] + self.facing.slopes[1] * dxi[1];
+        (dn, self.line.map_or([dn.left(), Vec3::zero()], |line| line.rates(None, (self.facing.n, dn), &self.e)))
+    }
+}
+
+/// The middle of a face in space.
+struct FaceMiddle<'a> {
+    face: &'a FieldFace,
+    shape: ShapeFunctions,
+    tangents: [Vec3; 2],
+}
+
+impl FaceMiddle<'_> {
+    /// Derivatives of its tangents along a displacement of a node.
+    fn rates(&self, node: usize, axis: usize) -> [Vec3; 2] {
+        let slopes = self.face.nodes.iter().position(|&own| own == node).map(|k| self.shape.dn[k]);
+        slopes.unwrap_or_default().map(|slope| Vec3::axis(axis) * slope)
     }
 }
 
@@ -217,7 +239,7 @@ impl<'a> StencilInPlace<'a> {
         sums.starts.clear();
         sums.rates.clear();
         sums.vertex = None;
-        let line = self.line();
+        let (line, surface) = (self.line(), &self.at.contact.parts.surface);
         for &(number, corner) in &self.found.supports[self.slot].patches {
             let patch = &self.found.patches[number];
             sums.starts.push(sums.columns.len());
@@ -228,6 +250,9 @@ impl<'a> StencilInPlace<'a> {
             sums.values.extend(columns[..unknowns].iter().map(|&column| self.at.u[column]));
             let at = NodesInPlace { nodes: &patch.nodes, u: &sums.values, ..self.at };
             let points = PatchPoints::of((self.found.number, number, patch), &at, recall, derivatives)?;
+            let face = &surface.faces[patch.patch.face];
+            let shape = face.shape(face.middle());
+            let middle = FaceMiddle { face, shape, tangents: shape.tangents(at.placed(face).nodes(), surface.plane) };
             for (k, point) in points.points.iter().enumerate() {
                 if point.vertex.is_some_and(|vertex| vertex != corner || sums.vertex.is_some()) {
                     continue;
@@ -240,17 +265,18 @@ impl<'a> StencilInPlace<'a> {
                 };
                 let e = tangents(line, point.n);
                 let facing = point.touched.and_then(|touched| touched.facing);
-                let turn = facing.map(|(n, slopes)| {
+                let turn = facing.map(|facing| {
                     let line = line.zip(carried).map(|(line, d)| MaterialLine { d, ..line });
-                    CarriedTriad { line, n, slopes, e: tangents(line, n) }
+                    CarriedTriad { line, facing, e: tangents(line, facing.n) }
                 });
-                let twist = turn.map(|turn| turn.twist(point, e));
+                let twist = turn.map(|turn| turn.twist(point, e, &middle));
                 let way = twist.map_or(point.v, |twist| twist.way);
                 let (weight, slip) = (point.weight * point.functions.n[corner], e.map(|e| e.dot(way)));
                 sums.points.push(NodePoint { of: (sums.patches.len(), k), weight, shift: -weight, e, slip });
                 if derivatives {
                     let function = (point.functions.n[corner], point.functions.dn[corner]);
                     let (of_point, node, turn) = ((point, points.rates(k)), (&at, line, function, e), turn.zip(twist));
+                    let turn = turn.map(|(carried, twist)| (carried, twist, &middle));
                     differentiate(of_point, node, turn, columns.len(), &mut sums.rates);
                 }
             }
@@ -454,13 +480,13 @@ fn beside(line: MaterialLine, nodes: &[usize]) -> impl Iterator<Item = usize> {
 fn differentiate(
     (point, rates): (&PatchPoint, &[PointRates]),
     (at, line, function, e): (&NodesInPlace, Option<MaterialLine>, NodeFunction, [Vec3; 2]),
-    turn: Option<(CarriedTriad, Twist)>,
+    turn: Option<(CarriedTriad, Twist, &FaceMiddle)>,
     count: usize,
     out: &mut Vec<NodeRates>,
 ) {
     let (axes, still) = (at.axes(), PointRates::default());
-    let way = turn.map_or(point.v, |(_, twist)| twist.way);
-    let slopes = turn.map(|(_, twist)| e.map(|e| twist.slopes(e)));
+    let way = turn.map_or(point.v, |(_, twist, _)| twist.way);
+    let slopes = turn.map(|(_, twist, _)| e.map(|e| twist.slopes(e)));
     let beside: Vec<usize> = line.into_iter().flat_map(|line| beside(line, at.nodes)).collect();
     for j in 0..count {
         let rate = rates.get(j).unwrap_or(&still);
@@ -471,12 +497,23 @@ fn differentiate(
         let de = line.map_or([rate.n.left(), Vec3::zero()], turned);
         let slope = function.1[0] * rate.xi[0] + function.1[1] * rate.xi[1];
         let rest = match (&turn, &slopes) {
-            (Some((carried, twist)), Some(slopes)) => {
+            (Some((carried, twist, middle)), Some(slopes)) => {
                 let moved = rate.v - rate.n * point.gap - point.n * rate.gap;
                 let spun = at.tool.filter(|_| node.is_none() && j < rates.len());
                 let spun = spun.map_or(Vec3::zero(), |tool| tool.spins()[j - at.nodes.len() * axes]);
-                let own = spin(&[point.n, e[0], e[1]], &[rate.n, de[0], de[1]]);
-                let spins = twist.beside([own, spun + carried.spin(rate.xi)]);
+                let (f, (dn, df)) = (carried.e, carried.rates(rate.xi));
+                let mut own = spin(&[point.n, e[0], e[1]], &[rate.n, de[0], de[1]]);
+                if carried.line.is_some() {
+                    let (g, dg) = (middle.tangents, column.map(|(node, axis)| middle.rates(node, axis)));
+                    let [re, im] = carried.turned(&e, &f, &g);
+                    let parts = [(&de, &f, &g), (&e, &df, &g), (&e, &f, &dg.unwrap_or_default())];
+                    let slope = parts.into_iter().fold(0.0, |sum, (e, f, g)| {
+                        let [dre, dim] = carried.turned(e, f, g);
+                        sum + re * dim - im * dre
+                    });
+                    own += point.n * (slope / (re * re + im * im));
+                }
+                let spins = twist.beside([own, spun + spin(&[carried.facing.n, f[0], f[1]], &[dn, df[0], df[1]])]);
                 slopes.map(|[along, turned]| along.dot(moved) + turned.dot(spins))
             }
             _ => e.map(|e| e.dot(rate.v)),

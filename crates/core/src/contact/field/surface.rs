@@ -315,6 +315,40 @@ impl FieldSurface {
         self.nodes[node].support.iter().map(of).fold(0.0, f64::max)
     }
 
+    /// By how much a smooth surface rises above each side in the mean, outward: of the parabola over an edge `d` between ends at which the
+    /// surface's normals lean by `t` over `|d|` from those of the side `(t_a + t_b) / 12`, a fifth of that where the edge follows the
+    /// surface and meets it in its middle too; of a face half the sum of that over its edges. Where the surface ends it goes on as at the
+    /// other end of the edge.
+    pub fn rises(&self, mesh: &Mesh) -> BTreeMap<Side, f64> {
+        let mut whole = Self { plane: self.plane, revolves: self.revolves, ..Self::default() };
+        let mut sides: Vec<Side> = self.faces.iter().map(|face| face.side).collect();
+        sides.dedup();
+        whole.faces = sides.iter().map(|&side| FieldFace::new(mesh, side)).collect();
+        whole.number(mesh);
+        let placed = |f: usize| whole.faces[f].at_rest(mesh);
+        let middle = |f: usize| whole.faces[f].shape(whole.faces[f].middle()).value(placed(f).nodes());
+        let rise = |f: usize| {
+            let (face, rest) = (&whole.faces[f], placed(f));
+            // What the surface leans beyond the side along an edge from a corner, unknown where it ends there; what the side does itself.
+            let lean = |corner: usize, d: Vec3| {
+                let (node, x) = (whole.field[f][corner], rest.nodes()[corner]);
+                let goes_on = |&(f, _): &(usize, usize)| (middle(f) - x).dot(d) < 0.0;
+                let own = whole.area_vector(face, &rest, corner).unit();
+                let by = (own - whole.normal(node, placed).unit).dot(d);
+                (whole.nodes[node].support.iter().any(goes_on).then_some(by), own.dot(d))
+            };
+            let edge = |a: usize, b: usize| {
+                let d = rest.nodes()[b] - rest.nodes()[a];
+                let ((from, own_from), (to, own_to)) = (lean(a, d), lean(b, -d));
+                let (beyond, own) = (from.or(to).unwrap_or(0.0) + to.or(from).unwrap_or(0.0), own_from + own_to);
+                beyond / if face.kind.degree > 1 && own.abs() > beyond.abs() { 60.0 } else { 12.0 }
+            };
+            let count = face.corners();
+            if count == 2 { edge(0, 1) } else { 0.5 * (0..count).map(|a| edge(a, (a + 1) % count)).sum::<f64>() }
+        };
+        sides.iter().enumerate().map(|(f, &side)| (side, rise(f))).collect()
+    }
+
     /// Mean size of its faces.
     pub fn mean_size(&self, mesh: &Mesh) -> f64 {
         (0..self.faces.len()).map(|f| self.size(f, mesh)).sum::<f64>() / self.faces.len().max(1) as f64

@@ -188,10 +188,6 @@ impl RigidTool {
 }
 
 impl ToolInPlace<'_> {
-    /// Whether it is turned beside another place of its.
-    pub fn is_turned(&self, other: &ToolInPlace) -> bool {
-        self.pose.rotation != other.pose.rotation
-    }
     /// Present place of its reference point.
     pub fn reference(&self) -> Vec3 {
         self.place(self.rigid.rest())

@@ -1,11 +1,11 @@
-//! The slip of an increment over which a tool turns beside the surface.
+//! The slip of an increment over which a tool and the surface turn beside each other.
 //!
 //! A place of the surface carries a triad `e` with it, the direction of its gap and the two tangents; the one that it had at the
 //! accepted state, moved with the tool, is `f = R e`. Between them the tool moves as a screw of constant twist, the geodesic of
 //! rigid motions (Murray, Li & Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, ch. 2): its material point that
 //! lay at the place is then at `w = T(phi) u`, with `phi` the rotation vector of `R`, `T` as in [`Pose`], and `u` what slid past the
-//! place. Over a turning tool `w` is the chord of the way and `u` its arc, along the velocity at the place. Beside a tool that does not
-//! turn a triad spins by strains of the surface alone, and the place goes straight: there the way is `w`.
+//! place: `w` is the chord of the way and `u` its arc, along the velocity at the place. About its first vector the triad turns with the
+//! surface, by the rotation of its gradient in the plane (polar decomposition), and not with the line of its tangents, which strains turn too.
 
 use crate::tensor::{Dual, Vec3};
 use crate::tool::Pose;

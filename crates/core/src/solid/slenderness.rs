@@ -135,11 +135,11 @@ impl Slenderness {
     }
 
     /// Whether cells through a body share their change of volume, so that much of its stiffness in bending is lost: one or two
-    /// quadrilaterals or bricks of first degree, one tetrahedron of second.
+    /// quadrilaterals or bricks of first degree, one to three tetrahedra of second, with 65, 12 and 5 % where it keeps its volume.
     pub fn soft(&self, kind: &Cell, formulation: Formulation) -> bool {
         let few = match (kind.degree, together(kind)) {
             (1, 1.0) => 2.5,
-            (2, 6.0) => 1.5,
+            (2, 6.0) => 3.5,
             _ => 0.0,
         };
         formulation == Formulation::FBar && self.through < few
@@ -440,7 +440,7 @@ mod tests {
             assert!(!of.reduces(Cell::named("hex27").unwrap(), 0.1, false));
         }
         for (name, through, soft) in
-            [("hex8", 1, true), ("hex8", 2, true), ("hex8", 3, false), ("tet10", 1, true), ("tet10", 2, false)]
+            [("hex8", 1, true), ("hex8", 2, true), ("hex8", 3, false), ("tet10", 3, true), ("tet10", 4, false)]
         {
             let kind = Cell::named(name).unwrap();
             let mesh = Block::new([0.0; 3], [50.0, 50.0, 2.0], [20, 20, through], kind).mesh("b").unwrap();

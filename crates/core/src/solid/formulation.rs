@@ -189,7 +189,7 @@ impl Choice {
         self.stiff = Some(stiff);
         let modes = incompatible::has_modes(self.kind);
         let bends = body.stiff(self.kind, Formulation::Incompatible);
-        let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF.max(bends);
+        let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF;
         if auto && modes && (self.soft || shears) {
             self.reason = match self.soft {
                 true => "bending, with one or two cells through it".into(),

@@ -27,7 +27,7 @@ fn cantilever(cell: &str, through: usize) -> String {
         _ => (
             "solid",
             format!(
-                "box = {{ from = [0.0, 0.0, 0.0], to = [20.0, 1.0, 0.5], cells = [40, {through}, 1], cell = \"hex8\" }}"
+                "box = {{ from = [0.0, 0.0, 0.0], to = [20.0, 1.0, 0.5], cells = [40, {through}, 1], cell = \"{cell}\" }}"
             ),
             "symmetry = [\"b.back\", \"b.front\"]",
         ),
@@ -60,6 +60,17 @@ fn what_keeps_its_volume_bends() {
         // F-bar shares the change of volume over the two axes of the plane or the three of space.
         let apart = if formulation == Formulation::FBar { 0.02 } else { 1e-6 };
         assert!((found[0].1 / found[1].1 - 1.0).abs() < apart, "{through}: {found:?}");
+    }
+}
+
+/// One to three tetrahedra of second degree through a cantilever: with a change of volume of their own they are too soft by 65, 9 and 4 %.
+#[test]
+fn few_tetrahedra_that_keep_their_volume_bend() {
+    let beam = (4.0 * 20.0_f64.powi(3) * (1.0 - 0.4999_f64.powi(2)) + 1.2 * 20.0 * 2.0 * 1.4999) / 1e6;
+    for through in [1, 2, 3] {
+        let (chosen, sinking) = ended(&cantilever("tet10", through), "b.right", 1);
+        assert_eq!(chosen, Formulation::FBar, "{through}");
+        assert!((0.97..1.0).contains(&(-sinking / beam)), "{through}: {}", -sinking / beam);
     }
 }
 
@@ -254,10 +265,10 @@ fn plate([cell, law, more]: [&str; 3], cells: [usize; 3], size: [f64; 2]) -> (Fo
 const RUBBER: &str = "elastic = { young = 1e3, poisson = 0.499 }";
 const METAL: &str = "von_mises = { young = 1e3, poisson = 0.3, yield_stress = 1.0, hardening = 1.0 }";
 
-/// Tetrahedra of second degree through a plate: one shares a linear change of volume with its neighbours, as standard it is too stiff by up to a
-/// fifth.
+/// Tetrahedra of second degree through a plate: one and two share a linear change of volume with their neighbours, as standard they are too stiff by
+/// up to a fifth.
 #[test]
-fn one_tetrahedron_of_second_degree_bends() {
+fn few_tetrahedra_of_second_degree_bend() {
     for (law, right) in [(RUBBER, 0.98..1.02), (METAL, 1.0..1.09)] {
         let (formulation, force, told) = plate(["tet10", law, ""], [20, 1, 4], [1.0, 4.0]);
         assert_eq!((formulation, told.len()), (Formulation::FBar, 0), "{told:?}");
@@ -265,9 +276,8 @@ fn one_tetrahedron_of_second_degree_bends() {
     }
     let (_, force, told) = plate(["tet10", RUBBER, ""], [10, 1, 2], [1.0, 4.0]);
     assert!((0.98..1.02).contains(&force) && told.is_empty(), "{force} {told:?}");
-    let (formulation, force, told) = plate(["tet10", RUBBER, ""], [20, 2, 4], [1.0, 4.0]);
-    assert!((0.92..1.0).contains(&force) && told.is_empty(), "{force} {told:?}");
-    assert_eq!(formulation, Formulation::FBar);
+    let (_, force, told) = plate(["tet10", RUBBER, ""], [20, 2, 4], [1.0, 4.0]);
+    assert!((0.98..1.02).contains(&force) && told.is_empty(), "{force} {told:?}");
 }
 
 /// Bricks as long as a beam is thick, three through it: incompatible modes, with F-bar it is too stiff by a third, which is told.

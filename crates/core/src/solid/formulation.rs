@@ -4,8 +4,8 @@
 //! limit loads are never reached. Where the ratio `K / G` of bulk to shear modulus is as small as that of metals the error
 //! is that of the mesh; from [`NEARLY`] on F-bar takes over, and always where a solid flows with no change of volume or with one that
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
-//! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft. One
-//! tetrahedron of second degree through a body shares its change of volume with others there.
+//! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft. One to
+//! three tetrahedra of second degree through a body share a linear change of volume with others there.
 
 use super::slenderness::{STIFF, Slenderness, TWO_POINTS};
 use super::{Strain, incompatible};
@@ -189,7 +189,7 @@ impl Choice {
         self.stiff = Some(stiff);
         let modes = incompatible::has_modes(self.kind);
         let bends = body.stiff(self.kind, Formulation::Incompatible);
-        let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF.max(bends);
+        let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF;
         if auto && modes && (self.soft || shears) {
             self.reason = match self.soft {
                 true => "bending, with one or two cells through it".into(),

@@ -1,5 +1,5 @@
 //! Patches of neighbouring simplices and wedges of first degree that share one change of volume (de Souza Neto, Andrade
-//! Pires and Owen 2005), since one alone has too few motions for a condition of its own; and pairs of triangles and fours of
+//! Pires and Owen 2005), since one alone has too few motions for a condition of its own; and pairs of triangles and sixes of
 //! tetrahedra of second degree for a linear one.
 //!
 //! A mesh is cut into patches that do not overlap, from its rim inwards: a patch begins with the cell that has the fewest
@@ -34,14 +34,15 @@ pub(super) struct Patches {
 }
 
 /// Cells of a patch of a kind, so that there is about one condition for each node of a mesh of first degree. With three
-/// and four triangles metal upset by a fifth is too soft by 7 and 17 %.
+/// and four triangles metal upset by a fifth is too soft by 7 and 17 %. Six tetrahedra of second degree may be a brick: with four a cantilever that
+/// keeps its volume, two through it, L/t = 20 and 10 along, is too stiff by 5.5 %, with six by 2.1 %.
 pub(super) fn size(choice: &Choice) -> usize {
     let kind = choice.kind;
     match (kind.degree, kind.dimension, kind.nodes.len()) {
         _ if choice.formulation != Formulation::FBar => 1,
         (_, 2, 3 | 6) | (1, 3, 6) => 2,
         (1, 3, 4) => 8,
-        _ if choice.joined => 4,
+        _ if choice.joined => 6,
         _ => 1,
     }
 }

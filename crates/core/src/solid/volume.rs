@@ -2,7 +2,7 @@
 //! body, a field of few terms whose coefficients are sums over samples, `c_a = sum_s phi_a(s) v_s det f_s`:
 //!
 //! * the mean of the points of its patch, for simplices and wedges of first degree, of the cell for quadrilaterals and bricks of
-//!   first degree and tetrahedra of second, two or more of which lie through a body;
+//!   first degree and tetrahedra of second, four or more of which lie through a body;
 //! * the field, linear in the undeformed coordinates, that is nearest to that of the points of the patch by least squares,
 //!   for the others of second degree: with one constant they are too soft.
 //!

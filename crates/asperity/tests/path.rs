@@ -309,3 +309,30 @@ fn an_increment_that_jumps_is_told() {
     assert!((0.3..1.3).contains(&snap.energy) && snap.largest.contains("along y"), "{snap:?}");
     assert!(snaps(ARCH).is_empty());
 }
+
+/// A column under 1.2 and 0.8 of Euler's load in its first increment: the undeformed one is stable, and the other is told, of a rate law
+/// whose tangent is not symmetric too.
+#[test]
+fn an_instability_within_the_first_increment_is_noted() {
+    let critical = std::f64::consts::PI.powi(2) * 1e6 / 12.0 / (4.0 * 40.0_f64.powi(2));
+    for law in ["elastic", "saint_venant_kirchhoff"] {
+        for (part, noted) in [(0.8, false), (1.2, true)] {
+            let deck = format!(
+                r#"
+version = 1
+space = "plane-stress"
+mesh.part.column.rectangle = {{ from = [0.0, 0.0], to = [1.0, 40.0], cells = [2, 30], cell = "quad8" }}
+material.steel.{law} = {{ young = 1e6, poisson = 0.0 }}
+body.column.material = "steel"
+[[step]]
+increments.count = 1
+displacement."column.bottom" = {{ x = 0.0, y = 0.0 }}
+traction."column.top".y = {}
+"#,
+                -part * critical
+            );
+            let turn = run(&model(&deck, &[])).attempts.last().unwrap().turn.is_some();
+            assert_eq!(turn, noted, "{law} {part}");
+        }
+    }
+}

@@ -180,11 +180,12 @@ impl Stability {
         let constraints = look.constraints();
         let now = Signs { time: record.time, step: record.step, symmetric, negative };
         let last = state.signs.replace(now);
-        // An undeformed model is taken for stable; numbers can be compared whatever is free, determinants cannot.
+        // An undeformed model is taken for stable, and its determinant for positive; numbers can be compared whatever is free,
+        // determinants cannot.
         let begun = Signs { time: record.time - record.dt, step: record.step, symmetric: true, negative: 0 };
         let last = if record.increment == 1 { Some(begun) } else { last };
         let alike = |step: usize| problem.steps[step].constraints.free() == constraints.free();
-        let same = last.filter(|last| symmetric && last.symmetric || alike(last.step) && record.increment > 1);
+        let same = last.filter(|last| symmetric && last.symmetric || alike(last.step));
         let before = state.softest.take().filter(|softest| {
             same.is_some_and(|last| last.time <= softest.time) && alike(softest.step) && record.increment > 1
         });

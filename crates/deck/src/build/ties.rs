@@ -128,7 +128,7 @@ impl Builder<'_> {
     }
 
     /// Nodes and normals of the flat groups that a step holds or moves, and of the axis of revolution.
-    fn planes(&self, mesh: &Mesh) -> Vec<(Vec<usize>, Vec3)> {
+    pub(super) fn planes(&self, mesh: &Mesh) -> Vec<(Vec<usize>, Vec3)> {
         let steps = self.deck.step.iter();
         let names = steps.flat_map(|step| step.displacement.iter().map(|(name, _)| name).chain(&step.symmetry));
         let plane = |name: &crate::reader::Name| {

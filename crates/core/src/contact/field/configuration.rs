@@ -163,7 +163,9 @@ impl Configuration<'_> {
         }
         let face = &self.contact.parts.surface.faces[patch.face];
         let covered = parts.into_iter().sum::<f64>() / face.area();
-        smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals.get(patch.face).unwrap_or(&1.0)
+        self.contact.most_dual(patch)
+            * smoothstep((covered - COVERED) / (1.0 - COVERED))[0]
+            * self.duals.get(patch.face).unwrap_or(&1.0)
     }
 
     /// Whether a corner of a face at which the surface ends sees a body within a patch.

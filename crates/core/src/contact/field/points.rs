@@ -97,7 +97,8 @@ impl PatchPoints {
             let weight = spot.weight * surface.density_at(face, &rest, spot.xi) * patch.facing(xi, n)[0];
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
-            let (shape, functions) = (frame.shape, surface.functions(&patch.patch, &frame.corners));
+            let (shape, functions) =
+                (frame.shape, surface.functions(patch.patch.face, patch.patch.dual, &frame.corners));
             let vertex = spot.vertex;
             self.points.push(PatchPoint { number, vertex, xi, weight, functions, shape, gap, n, v, y, sight, touched });
         }

@@ -4,7 +4,6 @@
 //! the corner belongs to several nodes, one for each smooth piece. Each node has the mean of the area vectors of its
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
-use super::cover::Patch;
 use super::face::{CORNERS, FieldFace, MOST, PlacedFace, ShapeFunctions};
 use crate::mesh::{CREASE, Mesh, Side, Space};
 use crate::tensor::{DisjointSets, Vec3, invert};
@@ -81,25 +80,31 @@ pub struct FieldSurface {
 impl FieldSurface {
     /// The faces `sides` of a mesh in a space; `thickness` counts in the plane cases.
     pub fn new(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
+        Self::held(mesh, sides, (space, thickness), &BTreeSet::new())
+    }
+
+    /// The same where nodes are `held` by conditions: an end of the surface among these, as on a plane of symmetry, is no edge of a body.
+    pub fn held(mesh: &Mesh, sides: &[Side], (space, thickness): (Space, f64), held: &BTreeSet<usize>) -> Self {
         let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).pieces(mesh));
-        Self::of(mesh, faces.collect(), space, thickness)
+        Self::of(mesh, faces.collect(), (space, thickness), held)
     }
 
     /// The same with sides of second degree in one piece, as a target has them.
     pub fn whole(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
-        Self::of(mesh, sides.iter().map(|&side| FieldFace::new(mesh, side)).collect(), space, thickness)
+        let faces = sides.iter().map(|&side| FieldFace::new(mesh, side)).collect();
+        Self::of(mesh, faces, (space, thickness), &BTreeSet::new())
     }
 
-    fn of(mesh: &Mesh, faces: Vec<FieldFace>, space: Space, thickness: f64) -> Self {
+    fn of(mesh: &Mesh, faces: Vec<FieldFace>, (space, thickness): (Space, f64), held: &BTreeSet<usize>) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
         let mut surface = Self { faces, plane, revolves, thickness, ..Self::default() };
-        surface.number(mesh);
+        surface.number(mesh, held);
         surface
     }
 
     /// Finds the smooth pieces and numbers the nodes of the field.
-    fn number(&mut self, mesh: &Mesh) {
+    fn number(&mut self, mesh: &Mesh, held: &BTreeSet<usize>) {
         let axis = 1e-9 * mesh.size();
         let mut around: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (f, face) in self.faces.iter().enumerate() {
@@ -133,7 +138,8 @@ impl FieldSurface {
             if roots.len() > 1 {
                 creased.extend(sides());
             } else if if self.plane { corners.len() == 1 } else { self.is_open(corners) } {
-                ending.extend(sides());
+                let on_axis = self.revolves && mesh.points[node][0].abs() <= axis;
+                ending.extend(sides().filter(|_| !on_axis && !held.contains(&node)));
             }
             for &root in &roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
@@ -148,14 +154,38 @@ impl FieldSurface {
         }
         let of = |sides: BTreeSet<Side>| self.faces.iter().map(|face| sides.contains(&face.side)).collect();
         (self.creased, self.ending) = (of(creased), of(ending));
-        let dual = |f: usize| (self.creased[f] || self.ending[f] || curved[f]).then(|| self.dual(f, mesh))?;
+        let mut edges: BTreeMap<[usize; 2], Vec<(usize, usize)>> = BTreeMap::new();
+        for (f, face) in self.faces.iter().enumerate().filter(|(_, face)| face.corners() == CORNERS) {
+            for k in 0..CORNERS {
+                let mut ends = [k, (k + 1) % CORNERS].map(|corner| face.corner_node(corner));
+                ends.sort_unstable();
+                edges.entry(ends).or_default().push((f, k));
+            }
+        }
+        // Of a quadrilateral those along its first and its second coordinate that an edge of the body bounds.
+        let mut across = vec![[false; 2]; self.faces.len()];
+        let bounds = |(ends, around): &(&[usize; 2], &Vec<(usize, usize)>)| {
+            let inner = matches!(around[..], [(f, _), (g, _)] if smooth(f, g));
+            !inner && !(around.len() == 1 && ends.iter().all(|end| held.contains(end)))
+        };
+        for (_, around) in edges.iter().filter(bounds) {
+            around.iter().for_each(|&(f, k)| across[f][(k + 1) % 2] = true);
+        }
+        let dual = |f: usize| {
+            let corners = match across[f] {
+                [true, false] => [0, 0, 1, 1],
+                [false, true] => [0, 1, 1, 0],
+                _ => [0; CORNERS],
+            };
+            (self.creased[f] || self.ending[f] || curved[f]).then(|| self.dual(f, corners, mesh))?
+        };
         self.duals = (0..self.faces.len()).map(dual).collect();
         (self.pieces, self.nodes, self.field, self.curved) = (pieces.labels(), nodes, field, curved);
     }
 
     /// Factors `D M^-1` of the functions of the corners of a face, with `M = int N N^t dA` and `D` its sums (Wohlmuth, SIAM J. Numer.
-    /// Anal. 38, 2000).
-    fn dual(&self, face: usize, mesh: &Mesh) -> Option<DualFactors> {
+    /// Anal. 38, 2000), between those `corners` that have the same number: along one coordinate alone where pairs have.
+    fn dual(&self, face: usize, corners: [usize; CORNERS], mesh: &Mesh) -> Option<DualFactors> {
         let face = &self.faces[face];
         let (rest, count) = (face.at_rest(mesh), face.corners());
         let (mut mass, mut inverse) = ([[0.0; CORNERS]; CORNERS], [[0.0; CORNERS]; CORNERS]);
@@ -163,7 +193,11 @@ impl FieldSurface {
         for (point, weight) in rule.points.iter().zip(rule.weights) {
             let xi = [point[0], point[1]];
             let (n, area) = (face.corner_functions(xi).n, weight * self.density_at(face, &rest, xi));
-            (0..count).for_each(|i| (0..count).for_each(|j| mass[i][j] += area * n[i] * n[j]));
+            for i in 0..count {
+                let alike = || (0..count).filter(|&j| corners[i] == corners[j]);
+                let together: f64 = alike().map(|j| n[j]).sum();
+                alike().for_each(|j| mass[i][j] += area * n[i] * n[j] / together);
+            }
         }
         let sums = mass.map(|row| row.iter().sum::<f64>());
         invert(&mut mass[..count], &mut inverse[..count], SINGULAR).then(|| {
@@ -172,16 +206,16 @@ impl FieldSurface {
         })
     }
 
-    /// Functions of the nodes of the field on a patch where those of the corners of its face are these.
-    pub fn functions(&self, patch: &Patch, corners: &ShapeFunctions) -> ShapeFunctions {
+    /// Functions of the nodes of the field on a face with a `share` of dual ones where those of its corners are these.
+    pub fn functions(&self, face: usize, share: f64, corners: &ShapeFunctions) -> ShapeFunctions {
         let mut functions = *corners;
-        if let Some(dual) = self.duals[patch.face].filter(|_| patch.dual > 0.0) {
+        if let Some(dual) = self.duals[face].filter(|_| share > 0.0) {
             for (i, row) in dual.iter().enumerate() {
                 let of =
                     |value: &dyn Fn(usize) -> f64| -> f64 { row.iter().enumerate().map(|(j, d)| d * value(j)).sum() };
-                functions.n[i] += patch.dual * (of(&|j| corners.n[j]) - corners.n[i]);
+                functions.n[i] += share * (of(&|j| corners.n[j]) - corners.n[i]);
                 for a in 0..2 {
-                    functions.dn[i][a] += patch.dual * (of(&|j| corners.dn[j][a]) - corners.dn[i][a]);
+                    functions.dn[i][a] += share * (of(&|j| corners.dn[j][a]) - corners.dn[i][a]);
                 }
             }
         }
@@ -324,7 +358,7 @@ impl FieldSurface {
         let mut sides: Vec<Side> = self.faces.iter().map(|face| face.side).collect();
         sides.dedup();
         whole.faces = sides.iter().map(|&side| FieldFace::new(mesh, side)).collect();
-        whole.number(mesh);
+        whole.number(mesh, &BTreeSet::new());
         let placed = |f: usize| whole.faces[f].at_rest(mesh);
         let middle = |f: usize| whole.faces[f].shape(whole.faces[f].middle()).value(placed(f).nodes());
         let rise = |f: usize| {

@@ -140,7 +140,12 @@ pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let free = [FailureKind::Free, FailureKind::Singular, FailureKind::Hourglass];
     let free = course.kind().is_some_and(|kind| free.contains(&kind)) || course.share(&free) > 0.3;
     let adrift = |body: &BodyFacts| !body.held && course.never_closed();
-    let body = facts.bodies.iter().find(|body| !body.unheld.is_empty() && (free || adrift(body)))?;
+    // What nothing but a smooth surface touches slides from the beginning, however that shows.
+    let smooth = |body: &BodyFacts| {
+        let of_body = |contact: &&ContactFacts| contact.bodies.contains(&body.name);
+        course.increments == 0 && facts.contacts.iter().filter(of_body).all(|c| c.friction.is_none_or(|f| f == 0.0))
+    };
+    let body = facts.bodies.iter().find(|body| !body.unheld.is_empty() && (free || adrift(body) || smooth(body)))?;
     course.kind()?;
     let touches = |contact: &&ContactFacts| {
         let bears = contact.gap.is_some_and(|gap| gap <= OPEN * contact.edge) || course.closed(&contact.name);

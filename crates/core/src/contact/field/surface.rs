@@ -166,7 +166,7 @@ impl FieldSurface {
         let mut across = vec![[false; 2]; self.faces.len()];
         let bounds = |(ends, around): &(&[usize; 2], &Vec<(usize, usize)>)| {
             let inner = matches!(around[..], [(f, _), (g, _)] if smooth(f, g));
-            !inner && !(around.len() == 1 && ends.iter().all(|end| held.contains(end)))
+            !(inner || around.len() == 1 && ends.iter().all(|end| held.contains(end)))
         };
         for (_, around) in edges.iter().filter(bounds) {
             around.iter().for_each(|&(f, k)| across[f][(k + 1) % 2] = true);

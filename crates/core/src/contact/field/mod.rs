@@ -26,6 +26,7 @@ mod column;
 pub(super) mod configuration;
 mod contact;
 mod cover;
+mod dual;
 pub(super) mod face;
 pub(super) mod faces;
 mod linear;

@@ -1,14 +1,9 @@
 //! The places of a quadrature on a patch, and how they move with its unknowns.
 
 use super::column::PointColumn;
-use super::contact::{FieldContact, FieldTarget};
-use super::cover::Patch;
-use super::face::{CORNERS, PlacedFace};
+use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
-use super::point::smoothstep;
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
-use crate::contact::record::{entry, stresses};
-use crate::system::History;
 use crate::tensor::{Dual, Vec3, legendre};
 use std::sync::LazyLock;
 
@@ -37,11 +32,6 @@ pub struct FaceSpot {
     laid: SpotMap,
 }
 
-/// Shear over pressure between which dual functions end: a corner that slides with its edge first digs itself in from about one on.
-const STEEP: [f64; 2] = [0.5, 0.9];
-/// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
-const BENT: [f64; 2] = [0.05, 0.2];
-
 /// How a place depends on unknowns.
 #[derive(Debug, Clone)]
 enum SpotMap {
@@ -51,63 +41,6 @@ enum SpotMap {
     Whole,
     /// On an overlap: derivatives of both coordinates and of the area along the corners of both faces.
     Overlap(Box<[[f64; DIRECTIONS]; 3]>),
-}
-
-impl FieldContact {
-    /// Largest share of dual functions on each face in a state with these stresses: it ends where friction pushes an edge in, and
-    /// at an end of the surface that bends.
-    pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<f64> {
-        let surface = &self.parts.surface;
-        let normal = |face: usize| {
-            let [a, b] =
-                surface.faces[face].shape(surface.faces[face].middle()).tangents(placed[face].nodes(), surface.plane);
-            a.cross(b).unit()
-        };
-        let limit = |face: usize| {
-            if surface.duals[face].is_none() || (surface.creased[face] && surface.faces[face].kind.degree == 1) {
-                return 1.0;
-            }
-            let (mut shear, mut pressure, mut bend) = (0.0, 0.0, 0.0_f64);
-            for &node in &surface.field[face][..surface.faces[face].corners()] {
-                for slot in (0..self.pieces).map(|piece| history.slot(self.slot(node, piece))) {
-                    let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
-                    (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
-                }
-                for &(other, _) in surface.nodes[node].support.iter().filter(|_| !surface.curved[face]) {
-                    bend = bend.max(normal(face).cross(normal(other)).norm());
-                }
-            }
-            let ratio = if pressure > 0.0 { shear / pressure } else { 0.0 };
-            let fade = |x: f64, [from, to]: [f64; 2]| 1.0 - smoothstep((x - from) / (to - from))[0];
-            fade(ratio, STEEP) * fade(bend, BENT)
-        };
-        (0..surface.faces.len()).map(limit).collect()
-    }
-
-    /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the
-    /// corners, where others let an edge in as far as the rest of the face stands off and have its pressure a third of the face away.
-    /// So it is at a crease of the surface; at its end where it and what it sees are flat, since it may end on a plane of symmetry; and
-    /// where facets of first degree of a curve touch by their corners what is straight.
-    pub(super) fn is_sharp(&self, patch: &Patch) -> bool {
-        let (surface, face) = (&self.parts.surface, patch.face);
-        let flat = || match &self.parts.target {
-            FieldTarget::Tool(tool) => tool.is_straight(patch.target),
-            FieldTarget::Faces(faces) => !faces.surface.curved[patch.target],
-        };
-        let facet = surface.plane && surface.faces[face].kind.degree == 1 && surface.curved[face];
-        surface.creased[face] || ((surface.ending[face] && !surface.curved[face] || facet) && flat())
-    }
-
-    /// Largest share of dual functions on a patch: one where the gap cannot but be linear. Of a gap that opens from an edge with the
-    /// square of the distance, as that of a plate which lifts off a table from where it is clamped, the mean with ordinary functions
-    /// is a sixth of what it is at the far end of the face, with dual ones as much less than zero.
-    pub(super) fn most_dual(&self, patch: &Patch) -> f64 {
-        let straight = match &self.parts.target {
-            FieldTarget::Tool(tool) => tool.is_straight(patch.target),
-            FieldTarget::Faces(faces) => faces.surface.faces[patch.target].kind.degree == 1,
-        };
-        if straight && self.parts.surface.faces[patch.face].kind.degree == 1 { 1.0 } else { 0.5 }
-    }
 }
 
 impl FaceSpot {

@@ -239,6 +239,8 @@ impl<'a> StencilInPlace<'a> {
         sums.starts.clear();
         sums.rates.clear();
         sums.vertex = None;
+        // How far the mean of a node is from the place of its vertex, over that of ordinary functions; none where dual ones are most.
+        let mut apart = 1.0;
         let (line, surface) = (self.line(), &self.at.contact.parts.surface);
         for &(number, corner) in &self.found.supports[self.slot].patches {
             let patch = &self.found.patches[number];
@@ -258,7 +260,8 @@ impl<'a> StencilInPlace<'a> {
                     continue;
                 }
                 if point.vertex.is_some() {
-                    sums.vertex = Some(sums.points.len());
+                    let dual = patch.patch.dual;
+                    (sums.vertex, apart) = (Some(sums.points.len()), if dual > 0.5 { 0.0 } else { 1.0 - dual });
                 }
                 let tangents = |line: Option<MaterialLine>, n: Vec3| {
                     line.map_or([n.left(), Vec3::axis(2)], |line| line.tangents(n))
@@ -300,7 +303,7 @@ impl<'a> StencilInPlace<'a> {
         if derivatives {
             sums.find_gradients(self.at.u.len());
         }
-        sums.press_vertex(self.at.contact.size_at(self.slot), derivatives.then_some(self.at.u.len()));
+        sums.press_vertex(apart * self.at.contact.size_at(self.slot), derivatives.then_some(self.at.u.len()));
         Some(())
     }
 

@@ -48,7 +48,7 @@ pub struct FieldAttempt<'a> {
     pub tips_before: Vec<Option<TipFoot>>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
-    /// Largest share of dual functions on each.
+    /// Largest share of dual functions on each face.
     pub duals: Vec<f64>,
     /// Largest gap at which the target is seen.
     pub reach: f64,
@@ -179,7 +179,7 @@ impl FieldAttempt<'_> {
                 let facing = Facing {
                     n: -carry(foot.normal),
                     slopes: place.tangents.map(|tangent| -carry(foot.turned(tangent))),
-                    duals: [b.cross(m), m.cross(a)].map(|dual| carry(dual * m.dot(m).recip())),
+                    contravariant: [b.cross(m), m.cross(a)].map(|base| carry(base * m.dot(m).recip())),
                 };
                 Some(Touched {
                     now: now.place(before.withdraw(foot.point)),

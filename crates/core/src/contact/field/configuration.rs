@@ -2,6 +2,7 @@
 
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, over_piece};
+use super::dual::BLENDED;
 use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
 use super::part::{FacePart, nearest, samples};
@@ -98,7 +99,7 @@ impl Configuration<'_> {
                     over_piece(&face, (tool, piece), |interval, ends| {
                         let mut part = patch(piece, interval, ends);
                         if interval == WHOLE {
-                            part.dual = self.dual_share(&part, [2.0]);
+                            part.dual = self.dual_share(&part, 1.0);
                         }
                         found.extend(self.judge(&face, part, &samples(interval)));
                     });
@@ -111,7 +112,7 @@ impl Configuration<'_> {
                     let all = patch(piece, WHOLE, [None; 2]);
                     let sees = |xi: &[f64; 2]| tool.closest(piece, face.at(*xi).x).beyond.is_none();
                     if rule.iter().chain(&corners).all(sees) {
-                        let dual = self.dual_share(&all, [face.face.area()]);
+                        let dual = self.dual_share(&all, 1.0);
                         return self.judge(&face, Patch { dual, ..all }, &rule);
                     }
                     let focus = tool.middle(piece).and_then(|x| nearby(&face, foot(face.corners(), x)));
@@ -136,15 +137,10 @@ impl Configuration<'_> {
                     Some((seen, part, seen.middle))
                 };
                 let all: Vec<_> = candidates.filter_map(look).collect();
-                found = nearest(&all).map(|(seen, ..)| *seen).collect();
+                let parts: Vec<_> = nearest(&all).collect();
+                found = parts.iter().map(|(seen, ..)| *seen).collect();
                 for seen in &mut found {
-                    let piece = |target: usize| self.contact.piece_of(target);
-                    let same =
-                        |other: &&(SeenPart, FacePart, f64)| piece(other.0.patch.target) == piece(seen.patch.target);
-                    let areas = nearest(&all).filter(same).map(|(other, part, _)| {
-                        if self.contact.is_sharp(&other.patch) { part.area() } else { f64::NEG_INFINITY }
-                    });
-                    seen.patch.dual = self.dual_share(&seen.patch, areas);
+                    seen.patch.dual = self.dual_share(&seen.patch, self.covered(&seen.patch, &parts));
                 }
             }
         }
@@ -156,22 +152,35 @@ impl Configuration<'_> {
         found
     }
 
-    /// Share of dual functions on a patch whose face sees the same piece of the target on parts of these areas.
-    fn dual_share(&self, patch: &Patch, parts: impl IntoIterator<Item = f64>) -> f64 {
+    /// Part of the face of a patch that sees the same piece of a body, which is flat all over that where edges count; none of any
+    /// face that has no dual functions.
+    fn covered(&self, patch: &Patch, parts: &[&(SeenPart, FacePart, f64)]) -> f64 {
+        let surface = &self.contact.parts.surface;
+        if surface.duals[patch.face].is_none() {
+            return 0.0;
+        }
+        let piece = |target: usize| self.contact.piece_of(target);
+        let same = parts.iter().filter(|(other, ..)| piece(other.patch.target) == piece(patch.target));
+        let area = |(other, part, _): &&(SeenPart, FacePart, f64)| {
+            if self.contact.is_sharp(&other.patch) { part.area() } else { f64::NEG_INFINITY }
+        };
+        same.map(area).sum::<f64>() / surface.faces[patch.face].area()
+    }
+
+    /// Share of dual functions on a patch of whose face the part `covered` sees one piece of the target.
+    fn dual_share(&self, patch: &Patch, covered: f64) -> f64 {
         if !self.contact.is_sharp(patch) {
             return 0.0;
         }
-        let face = &self.contact.parts.surface.faces[patch.face];
-        let covered = parts.into_iter().sum::<f64>() / face.area();
-        self.contact.most_dual(patch)
-            * smoothstep((covered - COVERED) / (1.0 - COVERED))[0]
-            * self.duals.get(patch.face).unwrap_or(&1.0)
+        let known = smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals.get(patch.face).unwrap_or(&1.0);
+        self.contact.most_dual(patch) * known
     }
 
-    /// Whether a corner of a face at which the surface ends sees a body within a patch.
+    /// Whether a corner of a face at which the surface ends sees a body within a patch, and is not held by dual functions.
     fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
         let surface = &self.contact.parts.surface;
-        if corner >= face.face.corners() || !surface.nodes[surface.field[patch.face][corner]].is_vertex {
+        let is_vertex = || surface.nodes[surface.field[patch.face][corner]].is_vertex;
+        if corner >= face.face.corners() || patch.dual > BLENDED || !is_vertex() {
             return false;
         }
         let at = face.at(face.face.corner_place(corner));

@@ -12,16 +12,15 @@ const STEEP: [f64; 2] = [0.5, 0.9];
 /// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
 const BENT: [f64; 2] = [0.05, 0.2];
 
+/// Share of dual functions of whose sum with ordinary ones a gap that opens with the square of the distance has the mean zero.
+pub(super) const BLENDED: f64 = 0.5;
+
 impl FieldContact {
     /// Largest share of dual functions on each face in a state with these stresses: it ends where friction pushes an edge in, and
     /// at an end of the surface that bends.
     pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<f64> {
         let surface = &self.parts.surface;
-        let normal = |face: usize| {
-            let [a, b] =
-                surface.faces[face].shape(surface.faces[face].middle()).tangents(placed[face].nodes(), surface.plane);
-            a.cross(b).unit()
-        };
+        let normal = |face: usize| surface.middle_normal(&surface.faces[face], &placed[face]);
         let limit = |face: usize| {
             if surface.duals[face].is_none() || (surface.creased[face] && surface.faces[face].kind.degree == 1) {
                 return 1.0;
@@ -65,6 +64,6 @@ impl FieldContact {
             FieldTarget::Tool(tool) => tool.is_straight(patch.target),
             FieldTarget::Faces(faces) => faces.surface.faces[patch.target].kind.degree == 1,
         };
-        if straight && self.parts.surface.faces[patch.face].kind.degree == 1 { 1.0 } else { 0.5 }
+        if straight && self.parts.surface.faces[patch.face].kind.degree == 1 { 1.0 } else { BLENDED }
     }
 }

@@ -48,8 +48,8 @@ pub struct Facing {
     pub n: Vec3,
     /// and its derivatives along the reference coordinates of the place.
     pub slopes: [Vec3; 2],
-    /// In space the vectors that are dual to the tangents in the middle of the face.
-    pub duals: [Vec3; 2],
+    /// In space the contravariant base vectors in the middle of the face.
+    pub contravariant: [Vec3; 2],
 }
 
 /// A quadrature point of a patch.

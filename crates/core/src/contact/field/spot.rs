@@ -44,7 +44,7 @@ enum SpotMap {
 }
 
 impl FaceSpot {
-    /// Of an open rule.
+    /// One that is no vertex.
     fn new(xi: [f64; 2], weight: f64, laid: SpotMap) -> Self {
         Self { xi, weight, vertex: None, laid }
     }

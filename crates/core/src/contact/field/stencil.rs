@@ -74,7 +74,7 @@ impl CarriedTriad {
     /// Cosine and sine, by a common factor, of the angle by which the surface turns about the gap beyond the line that its tangents follow:
     /// the rotation of its gradient in the plane, linear in both pairs of tangents and those in the middle of the face.
     fn turned(&self, e: &[Vec3; 2], f: &[Vec3; 2], tangents: &[Vec3; 2]) -> [f64; 2] {
-        tangents.iter().zip(&self.facing.duals).fold([0.0; 2], |[re, im], (now, dual)| {
+        tangents.iter().zip(&self.facing.contravariant).fold([0.0; 2], |[re, im], (now, dual)| {
             let ([a, b], [c, d]) = (e.map(|e| e.dot(*now)), f.map(|f| f.dot(*dual)));
             [re + a * c + b * d, im + b * c - a * d]
         })
@@ -239,7 +239,7 @@ impl<'a> StencilInPlace<'a> {
         sums.starts.clear();
         sums.rates.clear();
         sums.vertex = None;
-        // How far the mean of a node is from the place of its vertex, over that of ordinary functions; none where dual ones are most.
+        // How far the mean of a node is from the place of its vertex, over that of ordinary functions.
         let mut apart = 1.0;
         let (line, surface) = (self.line(), &self.at.contact.parts.surface);
         for &(number, corner) in &self.found.supports[self.slot].patches {
@@ -260,8 +260,7 @@ impl<'a> StencilInPlace<'a> {
                     continue;
                 }
                 if point.vertex.is_some() {
-                    let dual = patch.patch.dual;
-                    (sums.vertex, apart) = (Some(sums.points.len()), if dual > 0.5 { 0.0 } else { 1.0 - dual });
+                    (sums.vertex, apart) = (Some(sums.points.len()), 1.0 - patch.patch.dual);
                 }
                 let tangents = |line: Option<MaterialLine>, n: Vec3| {
                     line.map_or([n.left(), Vec3::axis(2)], |line| line.tangents(n))

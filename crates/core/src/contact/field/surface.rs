@@ -68,7 +68,7 @@ pub struct FieldSurface {
     pub ending: Vec<bool>,
     /// and whether it turns smoothly at one of its corners.
     pub curved: Vec<bool>,
-    /// For each such face what makes the functions of its corners biorthogonal to these.
+    /// For each face of any of these what makes the functions of its corners biorthogonal to these.
     pub duals: Vec<Option<DualFactors>>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
@@ -110,7 +110,7 @@ impl FieldSurface {
         for (f, face) in self.faces.iter().enumerate() {
             (0..face.corners()).for_each(|c| around.entry(face.corner_node(c)).or_default().push((f, c)));
         }
-        let normals: Vec<Vec3> = self.faces.iter().map(|face| self.middle_normal(face, mesh)).collect();
+        let normals: Vec<Vec3> = self.faces.iter().map(|face| self.middle_normal(face, &face.at_rest(mesh))).collect();
         let smooth = |f: usize, g: usize| {
             let cosine = normals[f].dot(normals[g]).clamp(-1.0, 1.0);
             cosine.acos() < CREASE && shared(&self.faces[f], &self.faces[g]) >= if self.plane { 1 } else { 2 }
@@ -138,8 +138,10 @@ impl FieldSurface {
             if roots.len() > 1 {
                 creased.extend(sides());
             } else if if self.plane { corners.len() == 1 } else { self.is_open(corners) } {
-                let on_axis = self.revolves && mesh.points[node][0].abs() <= axis;
-                ending.extend(sides().filter(|_| !on_axis && !held.contains(&node)));
+                // The axis of revolution is no edge either.
+                if !(held.contains(&node) || self.revolves && mesh.points[node][0].abs() <= axis) {
+                    ending.extend(sides());
+                }
             }
             for &root in &roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
@@ -259,8 +261,9 @@ impl FieldSurface {
         [corner, (corner + 1) % face.corners()].map(|corner| face.corner_node(corner))
     }
 
-    fn middle_normal(&self, face: &FieldFace, mesh: &Mesh) -> Vec3 {
-        let [a, b] = face.shape(face.middle()).tangents(face.at_rest(mesh).nodes(), self.plane);
+    /// The outward unit normal in the middle of a face in place.
+    pub fn middle_normal(&self, face: &FieldFace, placed: &PlacedFace) -> Vec3 {
+        let [a, b] = face.shape(face.middle()).tangents(placed.nodes(), self.plane);
         a.cross(b).unit()
     }
 
@@ -340,7 +343,7 @@ impl FieldSurface {
             // Halves of an edge meet their neighbours at its end.
             let (corner, parts) = face.end().map_or((corner, 1.0), |end| (end, 2.0));
             let own = match face.kind.degree {
-                1 => self.middle_normal(face, mesh),
+                1 => self.middle_normal(face, &face.at_rest(mesh)),
                 _ => self.area_vector(face, &face.at_rest(mesh), corner).unit(),
             };
             let normal = self.normal(self.field[f][corner], |f| self.faces[f].at_rest(mesh)).unit;

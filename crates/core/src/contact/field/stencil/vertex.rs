@@ -39,13 +39,10 @@ impl VertexShare {
 }
 
 impl NodeSums {
-    /// Gives the vertex of a node whose faces have this `size`, less where its functions are dual, where it lies deeper than the mean, its share; of a flat face under a
-    /// uniform pressure it has none. `count` unknowns, if derivatives are asked for.
+    /// Gives the vertex of a node whose faces have this `size`, less where a part of its functions is dual, its share where it lies deeper
+    /// than the mean; of a flat face under a uniform pressure it has none. `count` unknowns, if derivatives are asked for.
     pub fn press_vertex(&mut self, size: f64, count: Option<usize>) {
-        let Some(vertex) = self.vertex.filter(|_| size > 0.0) else {
-            self.vertex = None;
-            return;
-        };
+        let Some(vertex) = self.vertex else { return };
         let NodePoint { of: (patch, k), slip, .. } = self.points[vertex];
         let point = self.patches[patch].points[k];
         let beside = [-point.gap - self.y[0], slip[0] - self.y[1], slip[1] - self.y[2]];

@@ -22,10 +22,10 @@ const END: c_int = -2;
 const ANALYSE: c_int = 1;
 const FACTORISE: c_int = 2;
 const SOLVE: c_int = 3;
-/// What it says: a workspace or buffer is too small, a pivot is zero, memory is not given.
+/// What it says (INFOG(1)): a workspace or buffer is too small, a pivot is zero, memory is not given, in the analysis or later.
 const TOO_SMALL: [c_int; 6] = [-8, -9, -11, -14, -17, -20];
 const SINGULAR: c_int = -10;
-const REFUSED: c_int = -13;
+const REFUSED: [c_int; 3] = [-5, -7, -13];
 
 /// An instance of MUMPS for a pattern.
 pub struct Mumps {
@@ -83,9 +83,9 @@ impl Mumps {
                 Err(SINGULAR) => return Ok(false),
                 Err(code) if TOO_SMALL.contains(&code) => match self.more.next() {
                     Some(&more) => self.set(RESERVE, more),
-                    None => return Err(short()),
+                    None => return Err(LinearError::Memory(SHORT.into())),
                 },
-                Err(REFUSED) => return Err(short()),
+                Err(code) if REFUSED.contains(&code) => return Err(LinearError::Memory(told(code))),
                 Err(code) => return Err(LinearError::Other(told(code))),
             }
         }
@@ -131,13 +131,10 @@ impl Drop for Mumps {
     }
 }
 
-fn told(code: c_int) -> String {
-    format!("MUMPS: its error {code}")
-}
+const SHORT: &str = "the factor does not fit into the memory of the ranks; more ranks on more machines, or an iterative `solver.petsc`";
 
-fn short() -> LinearError {
-    let help = "the factor does not fit into the memory of the ranks; more ranks on more machines, or an iterative `solver.petsc`";
-    LinearError::Memory(help.into())
+fn told(code: c_int) -> String {
+    if REFUSED.contains(&code) { SHORT.into() } else { format!("MUMPS: its error {code}") }
 }
 
 /// The place of each unknown in `frontal`'s order, counted from one, on the first rank; on the others nothing.

@@ -2,8 +2,9 @@
 
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::Patch;
-use super::face::PlacedFace;
+use super::face::{CORNERS, PlacedFace, ShapeFunctions};
 use super::point::smoothstep;
+use super::surface::FieldSurface;
 use crate::contact::record::{entry, stresses};
 use crate::system::History;
 
@@ -11,9 +12,6 @@ use crate::system::History;
 const STEEP: [f64; 2] = [0.5, 0.9];
 /// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
 const BENT: [f64; 2] = [0.05, 0.2];
-
-/// Share of dual functions of whose sum with ordinary ones a gap that opens with the square of the distance has the mean zero.
-pub(super) const BLENDED: f64 = 0.5;
 
 impl FieldContact {
     /// Largest share of dual functions on each face in a state with these stresses: it ends where friction pushes an edge in, and
@@ -56,14 +54,49 @@ impl FieldContact {
         surface.creased[face] || ((surface.ending[face] && !surface.curved[face] || facet) && flat())
     }
 
-    /// Largest share of dual functions on a patch: one where the gap cannot but be linear. Of a gap that opens from an edge with the
-    /// square of the distance, as that of a plate which lifts off a table from where it is clamped, the mean with ordinary functions
-    /// is a sixth of what it is at the far end of the face, with dual ones as much less than zero.
-    pub(super) fn most_dual(&self, patch: &Patch) -> f64 {
+    /// Whether the gap over a patch cannot but be linear.
+    pub(super) fn is_linear(&self, patch: &Patch) -> bool {
         let straight = match &self.parts.target {
             FieldTarget::Tool(tool) => tool.is_straight(patch.target),
             FieldTarget::Faces(faces) => faces.surface.faces[patch.target].kind.degree == 1,
         };
-        if straight && self.parts.surface.faces[patch.face].kind.degree == 1 { 1.0 } else { BLENDED }
+        straight && self.parts.surface.faces[patch.face].kind.degree == 1
+    }
+}
+
+impl Patch {
+    /// Functions of the nodes of the field where those of its corners are these, at a `corner` none; and those by which they have the gap.
+    ///
+    /// Of a gap that opens from an edge with the square of the distance, as that of a plate which lifts off a table from where it is
+    /// clamped, the mean with ordinary functions is a sixth of what it is at the far end of the face, with dual ones as much less than zero.
+    /// Where it is collocated the dual part of it is therefore its value at the corner (a Petrov-Galerkin method: the forces are those of
+    /// the dual functions all the same, and constant pressures exact).
+    pub(super) fn functions(
+        &self,
+        surface: &FieldSurface,
+        corner: Option<usize>,
+        corners: &ShapeFunctions,
+    ) -> [ShapeFunctions; 2] {
+        let (mut functions, share) = (*corners, self.dual);
+        if let Some(corner) = corner {
+            let [none, mut of_gap] = [ShapeFunctions::constant(0.0); 2];
+            of_gap.n[corner] = if self.collocated[corner] == Some(true) { share } else { 0.0 };
+            return [none, of_gap];
+        }
+        if let Some(dual) = surface.duals[self.face].filter(|_| share > 0.0) {
+            for (i, row) in dual.iter().enumerate() {
+                let of =
+                    |value: &dyn Fn(usize) -> f64| -> f64 { row.iter().enumerate().map(|(j, d)| d * value(j)).sum() };
+                functions.n[i] += share * (of(&|j| corners.n[j]) - corners.n[i]);
+                for a in 0..2 {
+                    functions.dn[i][a] += share * (of(&|j| corners.dn[j][a]) - corners.dn[i][a]);
+                }
+            }
+        }
+        let mut of_gap = functions;
+        for c in (0..CORNERS).filter(|&c| self.collocated[c].is_some()) {
+            (of_gap.n[c], of_gap.dn[c]) = ((1.0 - share) * corners.n[c], corners.dn[c].map(|dn| (1.0 - share) * dn));
+        }
+        [functions, of_gap]
     }
 }

@@ -58,6 +58,11 @@ pub struct ShapeFunctions {
 }
 
 impl ShapeFunctions {
+    /// All of one value.
+    pub fn constant(value: f64) -> Self {
+        Self { n: [value; MOST], dn: [[0.0; 2]; MOST] }
+    }
+
     /// Those of a reference cell at `xi`.
     pub fn of(kind: &Cell, xi: [f64; 2]) -> Self {
         let (mut n, mut dn) = ([0.0; MOST], [[0.0; 3]; MOST]);

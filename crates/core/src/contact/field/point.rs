@@ -57,14 +57,16 @@ pub struct Facing {
 pub struct PatchPoint {
     /// Its number among the places of the quadrature.
     pub number: usize,
-    /// The corner of the face that it is, where it stands for no area of its own.
-    pub vertex: Option<usize>,
+    /// The corner of the face that it is, where it is none of the quadrature.
+    pub corner: Option<usize>,
     /// Reference coordinates on the face.
     pub xi: [f64; 2],
     /// Undeformed area it stands for.
     pub weight: f64,
-    /// Functions of the nodes of the field at the corners of the face.
+    /// Functions of the nodes of the field at the corners of the face,
     pub functions: ShapeFunctions,
+    /// and those by which they have the gap.
+    pub gap_functions: ShapeFunctions,
     /// Shape functions of the face.
     pub shape: ShapeFunctions,
     /// Gap, negative for penetration.

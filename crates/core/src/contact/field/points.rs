@@ -94,13 +94,14 @@ impl PatchPoints {
             let xi = spot.xi;
             let frame = patch.face.at(xi);
             let (sight, n, gap, y) = patch.look(&frame)?;
-            let weight = spot.weight * surface.density_at(face, &rest, spot.xi) * patch.facing(xi, n)[0];
+            let weight = spot.weight * surface.density_at(face, &rest, spot.of_area(face)) * patch.facing(xi, n)[0];
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
-            let (shape, functions) =
-                (frame.shape, surface.functions(patch.patch.face, patch.patch.dual, &frame.corners));
-            let vertex = spot.vertex;
-            self.points.push(PatchPoint { number, vertex, xi, weight, functions, shape, gap, n, v, y, sight, touched });
+            let (shape, corner) = (frame.shape, spot.corner);
+            let [functions, gap_functions] = patch.patch.functions(surface, corner, &frame.corners);
+            let point =
+                PatchPoint { number, corner, xi, weight, functions, gap_functions, shape, gap, n, v, y, sight, touched };
+            self.points.push(point);
         }
         Some(())
     }
@@ -123,9 +124,9 @@ impl PatchPoints {
         for point in &self.points {
             let (spot, frame) = (&spots[point.number], in_place.face.at(point.xi));
             let density = if still {
-                (surface.density_at(face, &rest, spot.xi), [0.0; 2])
+                (surface.density_at(face, &rest, spot.of_area(face)), [0.0; 2])
             } else {
-                surface.density(face, &rest, spot.xi)
+                surface.density(face, &rest, spot.of_area(face))
             };
             let facing = in_place.facing(point.xi, point.n);
             for (column, (bounds, turning)) in columns.iter().zip(bounds.iter().zip(&turning)) {

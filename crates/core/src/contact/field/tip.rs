@@ -22,7 +22,7 @@ use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::{FEET, FootBeside, Landing, Patch, root_near};
-use super::face::{FieldFace, MOST, PlacedFace, ShapeFunctions};
+use super::face::{FieldFace, PlacedFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, Touched, smoothstep};
 use super::points::Recall;
@@ -185,10 +185,7 @@ impl Configuration<'_> {
                 let has_foot = feet[first..first + FEET].iter().flatten().any(|f: &TipFoot| f.patch.face == place.face);
                 if feet[foot].is_none() && !has_foot {
                     let tip = Some(self.landing(place, &places, tool, share));
-                    let near = [place.xi; 2];
-                    let (seen, dual, vertices) = (None, 0.0, Default::default());
-                    let patch =
-                        Patch { face: place.face, target: foot, ends: [None; 2], near, seen, dual, vertices, tip };
+                    let patch = Patch { near: [place.xi; 2], tip, ..Patch::whole(place.face, foot) };
                     feet[foot] = Some(TipFoot { patch, gap: place.gap });
                 }
             }
@@ -511,10 +508,11 @@ impl NodesInPlace<'_> {
         let touched = recall(self, patch, xi);
         points.push(PatchPoint {
             number: 0,
-            vertex: None,
+            corner: None,
             xi,
             weight: tip.weight(),
-            functions: ShapeFunctions { n: [1.0; MOST], dn: [[0.0; 2]; MOST] },
+            functions: ShapeFunctions::constant(1.0),
+            gap_functions: ShapeFunctions::constant(1.0),
             shape: tip.foot.at.shape,
             gap: tip.foot.to.dot(n) - landing.radius,
             n,

@@ -5,11 +5,12 @@ use super::cover::Patch;
 use super::face::{CORNERS, PlacedFace, ShapeFunctions};
 use super::point::smoothstep;
 use super::surface::FieldSurface;
-use crate::contact::record::{entry, stresses};
+use crate::contact::record::entry;
 use crate::system::History;
 
-/// Shear over pressure between which dual functions end: a corner that slides with its edge first digs itself in from about one on.
-const STEEP: [f64; 2] = [0.5, 0.9];
+/// Friction, as sliding shear over pressure, between which dual functions of second degree end in space: under more an edge that leads digs
+/// in its nodes between the corners, which have no pressure of their own, and springs back.
+const STEEP: [f64; 2] = [0.8, 1.0];
 /// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
 const BENT: [f64; 2] = [0.05, 0.2];
 
@@ -17,27 +18,23 @@ impl FieldContact {
     /// Largest share of dual functions on each face in a state with these stresses: it ends where friction pushes an edge in, and
     /// at an end of the surface that bends.
     pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<f64> {
-        let surface = &self.parts.surface;
+        let (surface, law) = (&self.parts.surface, self.parts.law.first());
         let normal = |face: usize| surface.middle_normal(&surface.faces[face], &placed[face]);
+        let fade = |x: f64, [from, to]: [f64; 2]| 1.0 - smoothstep((x - from) / (to - from))[0];
+        let pressures = || (0..self.nodal_slots()).map(|slot| history.slot(slot)[entry::PRESSURE]).filter(|p| *p > 0.0);
+        let sliding: f64 = pressures().filter_map(|p| law.sliding_stress(p)).sum();
+        let steep = if sliding > 0.0 { fade(sliding / pressures().sum::<f64>(), STEEP) } else { 1.0 };
         let limit = |face: usize| {
-            if surface.duals[face].is_none() || (surface.creased[face] && surface.faces[face].kind.degree == 1) {
-                return 1.0;
-            }
-            let (mut shear, mut pressure, mut bend) = (0.0, 0.0, 0.0_f64);
-            for &node in &surface.field[face][..surface.faces[face].corners()] {
-                for slot in (0..self.pieces).map(|piece| history.slot(self.slot(node, piece))) {
-                    let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
-                    (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
-                }
-                for &(other, _) in surface.nodes[node].support.iter().filter(|_| !surface.curved[face]) {
+            let (mut bend, corners) = (0.0_f64, surface.faces[face].corners());
+            if !surface.creased[face] && !surface.curved[face] {
+                for &(other, _) in surface.field[face][..corners].iter().flat_map(|&node| &surface.nodes[node].support) {
                     bend = bend.max(normal(face).cross(normal(other)).norm());
                 }
             }
-            let ratio = if pressure > 0.0 { shear / pressure } else { 0.0 };
-            let fade = |x: f64, [from, to]: [f64; 2]| 1.0 - smoothstep((x - from) / (to - from))[0];
-            fade(ratio, STEEP) * fade(bend, BENT)
+            let is_steep = !surface.plane && surface.faces[face].kind.degree > 1;
+            fade(bend, BENT) * if is_steep { steep } else { 1.0 }
         };
-        (0..surface.faces.len()).map(limit).collect()
+        (0..surface.faces.len()).map(|face| if surface.duals[face].is_some() { limit(face) } else { 1.0 }).collect()
     }
 
     /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the

@@ -110,7 +110,7 @@ impl FieldAttempt<'_> {
             places.extend(GAUSS.iter().map(place));
         }
         let own = &self.contact.parts.surface.faces[patch.face];
-        places.extend(patch.corners().map(|corner| own.corner_place(corner)));
+        places.extend(patch.vertices().map(|corner| own.corner_place(corner)));
         for xi in places {
             if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {
                 nodes.extend_from_slice(&faces.surface.faces[face].nodes);

@@ -2,6 +2,7 @@
 
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, over_piece};
+use super::dual::BLENDED;
 use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
 use super::part::{FacePart, nearest, samples};
@@ -66,9 +67,6 @@ const BESIDE: f64 = 1e-6;
 /// Part of a face from which on dual functions come in where it is covered; below two thirds they have no area of their own.
 const COVERED: f64 = 0.8;
 
-/// Share of dual functions up to which a vertex bears beside them.
-const HALF: f64 = 0.5;
-
 /// What a search finds on a face.
 #[derive(Debug, Clone, Copy)]
 pub struct SeenPart {
@@ -90,8 +88,10 @@ impl Configuration<'_> {
             TargetInPlace::Tool(tool) if face.plane => {
                 for piece in 0..self.contact.pieces {
                     over_piece(&face, (tool, piece), |interval, ends| {
-                        let part = Patch { near: interval, ends, ..all(piece) };
-                        let part = if interval == WHOLE { self.sharpened(part) } else { part };
+                        let mut part = Patch { near: interval, ends, ..all(piece) };
+                        if interval == WHOLE {
+                            part.dual = self.dual_share(&part, 1.0);
+                        }
                         found.extend(self.judge(&face, part, &samples(interval)));
                     });
                 }
@@ -103,7 +103,8 @@ impl Configuration<'_> {
                     let all = all(piece);
                     let sees = |xi: &[f64; 2]| tool.closest(piece, face.at(*xi).x).beyond.is_none();
                     if rule.iter().chain(&corners).all(sees) {
-                        return self.judge(&face, self.sharpened(all), &rule);
+                        let dual = self.dual_share(&all, 1.0);
+                        return self.judge(&face, Patch { dual, ..all }, &rule);
                     }
                     let focus = tool.middle(piece).and_then(|x| nearby(&face, foot(face.corners(), x)));
                     if !focus.iter().chain(&rule).chain(&corners).any(sees) {
@@ -132,7 +133,11 @@ impl Configuration<'_> {
                 for seen in &mut found {
                     seen.patch.dual = self.dual_share(&seen.patch, self.covered(&seen.patch, &parts));
                 }
-                self.find_corners((&face, faces), &mut found);
+            }
+        }
+        if let TargetInPlace::Faces(faces) = &self.target {
+            for SeenPart { patch, .. } in &mut found {
+                patch.vertices = std::array::from_fn(|corner| self.sees_vertex((&face, faces), patch, corner));
             }
         }
         found
@@ -158,43 +163,20 @@ impl Configuration<'_> {
         if !self.contact.is_sharp(patch) {
             return 0.0;
         }
-        smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals.get(patch.face).unwrap_or(&1.0)
+        let known = smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals.get(patch.face).unwrap_or(&1.0);
+        self.contact.most_dual(patch) * known
     }
 
-    /// A patch of a whole face over a piece of a tool, with its dual functions.
-    fn sharpened(&self, mut patch: Patch) -> Patch {
-        patch.dual = self.dual_share(&patch, 1.0);
-        if patch.dual > 0.0 && !self.contact.is_linear(&patch) {
-            (0..self.contact.parts.surface.faces[patch.face].corners())
-                .for_each(|corner| patch.collocated[corner] = Some(true));
+    /// Whether a corner of a face at which the surface ends sees a body within a patch, and is not held by dual functions.
+    fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
+        let surface = &self.contact.parts.surface;
+        let is_vertex = || surface.nodes[surface.field[patch.face][corner]].is_vertex;
+        if corner >= face.face.corners() || patch.dual > BLENDED || !is_vertex() {
+            return false;
         }
-        patch
-    }
-
-    /// Finds of the patches of a face over a body the corners that are places of their own: those where the gap is collocated, and
-    /// those where the surface ends that dual functions do not hold.
-    fn find_corners(&self, (face, faces): (&FaceInPlace, &FacesInPlace), found: &mut [SeenPart]) {
-        let (surface, Some(number)) = (&self.contact.parts.surface, found.first().map(|seen| seen.patch.face)) else {
-            return;
-        };
-        for corner in 0..face.face.corners() {
-            let is_vertex = surface.nodes[surface.field[number][corner]].is_vertex;
-            let collocates = |patch: &Patch| patch.dual > 0.0 && !self.contact.is_linear(patch);
-            if !is_vertex && !found.iter().any(|seen| collocates(&seen.patch)) {
-                continue;
-            }
-            let at = face.at(face.face.corner_place(corner));
-            let sees = |seen: &SeenPart| {
-                let hit = faces.project(seen.patch.target, &FaceRay { x: at.x, n: at.normal.unit() });
-                hit.is_some_and(|hit| faces.holds(seen.patch.target, hit.s, BESIDE))
-            };
-            let here: Vec<bool> = found.iter().map(sees).collect();
-            let seen_at_all = here.iter().zip(found.iter()).any(|(here, seen)| *here && collocates(&seen.patch));
-            for (SeenPart { patch, .. }, here) in found.iter_mut().zip(here) {
-                patch.vertices[corner] = here && is_vertex && patch.dual <= HALF;
-                patch.collocated[corner] = (seen_at_all && collocates(patch)).then_some(here);
-            }
-        }
+        let at = face.at(face.face.corner_place(corner));
+        let hit = faces.project(patch.target, &FaceRay { x: at.x, n: at.normal.unit() });
+        hit.is_some_and(|hit| faces.holds(patch.target, hit.s, BESIDE))
     }
 
     /// Gaps of a patch at `places`, the last of them its middle; none if it does not look at the surface. What lies beyond the border

@@ -28,8 +28,6 @@ pub struct Patch {
     pub dual: f64,
     /// Corners of the face at an end of the surface that see the target here.
     pub vertices: [bool; CORNERS],
-    /// Corners of the face where the gap is that of their own place as far as functions are dual, and whether they see the target here.
-    pub collocated: [Option<bool>; CORNERS],
     /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.
     pub tip: Option<Landing>,
 }
@@ -37,23 +35,13 @@ pub struct Patch {
 impl Patch {
     /// One of a whole face that sees a piece or a face of the target.
     pub fn whole(face: usize, target: usize) -> Self {
-        Self {
-            face,
-            target,
-            ends: [None; 2],
-            near: WHOLE,
-            seen: None,
-            dual: 0.0,
-            vertices: Default::default(),
-            collocated: Default::default(),
-            tip: None,
-        }
+        let (seen, dual, vertices, tip) = Default::default();
+        Self { face, target, ends: [None; 2], near: WHOLE, seen, dual, vertices, tip }
     }
 
-    /// Numbers of the corners that are places of their own here.
-    pub fn corners(&self) -> impl Iterator<Item = usize> + use<> {
-        let (vertices, collocated) = (self.vertices, self.collocated);
-        (0..CORNERS).filter(move |&corner| vertices[corner] || collocated[corner] == Some(true))
+    /// Numbers of the corners at an end of the surface that see the target here.
+    pub fn vertices(&self) -> impl Iterator<Item = usize> + use<> {
+        self.vertices.into_iter().enumerate().filter(|(_, sees)| *sees).map(|(corner, _)| corner)
     }
 }
 

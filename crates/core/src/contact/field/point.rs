@@ -57,20 +57,22 @@ pub struct Facing {
 pub struct PatchPoint {
     /// Its number among the places of the quadrature.
     pub number: usize,
-    /// The corner of the face that it is, where it is none of the quadrature.
-    pub corner: Option<usize>,
+    /// The corner of the face that it is, where it stands for no area of its own.
+    pub vertex: Option<usize>,
     /// Reference coordinates on the face.
     pub xi: [f64; 2],
     /// Undeformed area it stands for.
     pub weight: f64,
     /// Functions of the nodes of the field at the corners of the face,
     pub functions: ShapeFunctions,
-    /// and those by which they have the gap.
-    pub gap_functions: ShapeFunctions,
+    /// and what of these is dual.
+    pub straightened: ShapeFunctions,
     /// Shape functions of the face.
     pub shape: ShapeFunctions,
     /// Gap, negative for penetration.
     pub gap: f64,
+    /// By how much the face lies nearer to the target than one of first degree between its corners.
+    pub bulge: f64,
     /// Outward direction of the gap.
     pub n: Vec3,
     /// The way of the increment, from the place to what it saw at the accepted state.
@@ -92,6 +94,8 @@ pub struct PointRates {
     pub xi: [f64; 2],
     /// Of the gap.
     pub gap: f64,
+    /// Of the bulge.
+    pub bulge: f64,
     /// Of the direction.
     pub n: Vec3,
     /// Of the way.
@@ -178,7 +182,20 @@ impl PatchInPlace<'_> {
             self.touched_rate(column, touched) + carried - dx
         };
         let v = point.touched.as_ref().map_or(Vec3::zero(), follow);
-        PointRates { weight, xi: dxi, gap, n, v, s, y }
+        let mut bulge = 0.0;
+        if self.patch.dual > 0.0 && self.face.face.kind.degree > 1 {
+            let (straight, corners) = (&frame.corners, self.face.corners());
+            let [a, b] = straight.tangents(corners, self.face.plane);
+            let corner = match column {
+                PointColumn::Node { axis, own: Some(k), .. } => {
+                    let at = self.face.face.corner_at(*k).map_or(0.0, |corner| straight.n[corner]);
+                    Vec3::axis(*axis) * at
+                }
+                _ => Vec3::zero(),
+            };
+            bulge = n.dot(frame.x - straight.value(corners)) + point.n.dot(dx - corner - a * dxi[0] - b * dxi[1]);
+        }
+        PointRates { weight, xi: dxi, gap, bulge, n, v, s, y }
     }
 
     /// Derivatives of gap, direction, coordinates of what is seen, and of the place where it is loaded.

@@ -94,14 +94,28 @@ impl PatchPoints {
             let xi = spot.xi;
             let frame = patch.face.at(xi);
             let (sight, n, gap, y) = patch.look(&frame)?;
-            let weight = spot.weight * surface.density_at(face, &rest, spot.of_area(face)) * patch.facing(xi, n)[0];
+            let weight = spot.weight * surface.density_at(face, &rest, spot.xi) * patch.facing(xi, n)[0];
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
-            let (shape, corner) = (frame.shape, spot.corner);
-            let [functions, gap_functions] = patch.patch.functions(surface, corner, &frame.corners);
-            let point =
-                PatchPoint { number, corner, xi, weight, functions, gap_functions, shape, gap, n, v, y, sight, touched };
-            self.points.push(point);
+            let (shape, vertex) = (frame.shape, spot.vertex);
+            let [functions, straightened] = surface.functions(patch.patch.face, patch.patch.dual, &frame.corners);
+            let bulge = (frame.x - frame.corners.value(patch.face.corners())).dot(n);
+            self.points.push(PatchPoint {
+                number,
+                vertex,
+                xi,
+                weight,
+                functions,
+                straightened,
+                shape,
+                gap,
+                bulge,
+                n,
+                v,
+                y,
+                sight,
+                touched,
+            });
         }
         Some(())
     }
@@ -124,9 +138,9 @@ impl PatchPoints {
         for point in &self.points {
             let (spot, frame) = (&spots[point.number], in_place.face.at(point.xi));
             let density = if still {
-                (surface.density_at(face, &rest, spot.of_area(face)), [0.0; 2])
+                (surface.density_at(face, &rest, spot.xi), [0.0; 2])
             } else {
-                surface.density(face, &rest, spot.of_area(face))
+                surface.density(face, &rest, spot.xi)
             };
             let facing = in_place.facing(point.xi, point.n);
             for (column, (bounds, turning)) in columns.iter().zip(bounds.iter().zip(&turning)) {

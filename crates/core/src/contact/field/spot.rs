@@ -1,7 +1,7 @@
 //! The places of a quadrature on a patch, and how they move with its unknowns.
 
 use super::column::PointColumn;
-use super::face::{CORNERS, FieldFace};
+use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
 use crate::tensor::{Dual, Vec3, legendre};
@@ -27,8 +27,8 @@ pub struct FaceSpot {
     pub xi: [f64; 2],
     /// Area in reference coordinates that it stands for.
     pub weight: f64,
-    /// The corner of the face that it is, whose part of the area it has for the gap there.
-    pub corner: Option<usize>,
+    /// The corner of the face that it is, where the surface ends there: it stands for no area of its own.
+    pub vertex: Option<usize>,
     laid: SpotMap,
 }
 
@@ -44,25 +44,19 @@ enum SpotMap {
 }
 
 impl FaceSpot {
-    /// One that is no corner.
+    /// One that is no vertex.
     fn new(xi: [f64; 2], weight: f64, laid: SpotMap) -> Self {
-        Self { xi, weight, corner: None, laid }
-    }
-
-    /// Where the area is that it stands for: a corner may lie on the axis of revolution.
-    pub fn of_area(&self, face: &FieldFace) -> [f64; 2] {
-        if self.corner.is_some() { face.middle() } else { self.xi }
+        Self { xi, weight, vertex: None, laid }
     }
 }
 
 impl PatchInPlace<'_> {
-    /// The places of its quadrature, and its corners that are places of their own.
+    /// The places of its quadrature, and of its vertices.
     pub fn spots(&self, derivatives: bool) -> Vec<FaceSpot> {
-        let (mut spots, face) = (self.quadrature(derivatives), self.face.face);
-        let part = face.area() / face.corners() as f64;
-        spots.extend(self.patch.corners().map(|corner| FaceSpot {
-            corner: Some(corner),
-            ..FaceSpot::new(face.corner_place(corner), part, SpotMap::Whole)
+        let mut spots = self.quadrature(derivatives);
+        spots.extend(self.patch.vertices().map(|corner| FaceSpot {
+            vertex: Some(corner),
+            ..FaceSpot::new(self.face.face.corner_place(corner), 0.0, SpotMap::Whole)
         }));
         spots
     }

@@ -31,8 +31,8 @@ struct NodePoint {
     /// Undeformed area it stands for times the node's function there, and the derivative of that along the share of the vertex.
     weight: f64,
     shift: f64,
-    /// The same area times the function by which the node has the gap.
-    gap_weight: f64,
+    /// The same area times what of the function is dual.
+    dual: f64,
     /// The two tangents, and the slip of the increment along them.
     e: [Vec3; 2],
     slip: [f64; 2],
@@ -45,7 +45,7 @@ type NodeFunction = (f64, [f64; 2]);
 #[derive(Debug, Clone, Copy)]
 struct NodeRates {
     weight: f64,
-    gap_weight: f64,
+    dual: f64,
     e: [Vec3; 2],
     slip: [f64; 2],
 }
@@ -108,10 +108,8 @@ impl FaceMiddle<'_> {
 /// Sums over the points of a node. Its buffers are kept from stencil to stencil.
 #[derive(Debug, Default)]
 pub struct NodeSums {
-    /// Undeformed area of what the node stands for and sees,
+    /// Undeformed area of what the node stands for and sees.
     pub area: f64,
-    /// and by the functions of the gap.
-    gap_area: f64,
     /// Penetration and slips.
     pub y: [f64; COUNT],
     /// Derivatives of `y` along each unknown, coordinate after coordinate.
@@ -261,10 +259,10 @@ impl<'a> StencilInPlace<'a> {
             let shape = face.shape(face.middle());
             let middle = FaceMiddle { face, shape, tangents: shape.tangents(at.placed(face).nodes(), surface.plane) };
             for (k, point) in points.points.iter().enumerate() {
-                if point.corner.is_some_and(|own| own != corner) {
+                if point.vertex.is_some_and(|vertex| vertex != corner || sums.vertex.is_some()) {
                     continue;
                 }
-                if point.corner.is_some() && patch.patch.vertices[corner] && sums.vertex.is_none() {
+                if point.vertex.is_some() {
                     (sums.vertex, apart) = (Some(sums.points.len()), 1.0 - patch.patch.dual);
                 }
                 let tangents = |line: Option<MaterialLine>, n: Vec3| {
@@ -278,12 +276,11 @@ impl<'a> StencilInPlace<'a> {
                 });
                 let twist = turn.map(|turn| turn.twist(point, e, &middle));
                 let way = twist.map_or(point.v, |twist| twist.way);
-                let [weight, gap_weight] =
-                    [&point.functions, &point.gap_functions].map(|functions| point.weight * functions.n[corner]);
+                let functions = [&point.functions, &point.straightened];
+                let [weight, dual] = functions.map(|functions| point.weight * functions.n[corner]);
                 let (of, slip) = ((sums.patches.len(), k), e.map(|e| e.dot(way)));
-                sums.points.push(NodePoint { of, weight, shift: -weight, gap_weight, e, slip });
+                sums.points.push(NodePoint { of, weight, shift: -weight, dual, e, slip });
                 if derivatives {
-                    let functions = [&point.functions, &point.gap_functions];
                     let functions = functions.map(|functions| (functions.n[corner], functions.dn[corner]));
                     let (of_point, node, turn) = ((point, points.rates(k)), (&at, line, functions, e), turn.zip(twist));
                     let turn = turn.map(|(carried, twist)| (carried, twist, &middle));
@@ -293,20 +290,21 @@ impl<'a> StencilInPlace<'a> {
             sums.patches.push(points);
         }
         sums.starts.push(sums.columns.len());
-        let ([mut area, mut gap_area], mut moments, mut place) = ([0.0; 2], [0.0; COUNT], Vec3::zero());
-        for NodePoint { of: (patch, k), weight, gap_weight, slip, .. } in &sums.points {
+        let (mut area, mut moments, mut place) = (0.0, [0.0; COUNT], Vec3::zero());
+        for NodePoint { of: (patch, k), weight, dual, slip, .. } in &sums.points {
             let point = &sums.patches[*patch].points[*k];
-            (area, gap_area) = (area + weight, gap_area + gap_weight);
+            area += weight;
+            moments[0] -= dual * point.bulge;
             place += (point.y - point.n * point.gap) * *weight;
-            for (moment, value) in moments.iter_mut().zip([-gap_weight * point.gap, weight * slip[0], weight * slip[1]]) {
-                *moment += value;
+            for (moment, value) in moments.iter_mut().zip([-point.gap, slip[0], slip[1]]) {
+                *moment += weight * value;
             }
         }
-        if area <= 0.0 || gap_area <= 0.0 {
+        if area <= 0.0 {
             return None;
         }
-        (sums.area, sums.gap_area, sums.place) = (area, gap_area, place * area.recip());
-        sums.y = [moments[0] / gap_area, moments[1] / area, moments[2] / area];
+        (sums.area, sums.place) = (area, place * area.recip());
+        sums.y = moments.map(|moment| moment / area);
         if derivatives {
             sums.find_gradients(self.at.u.len());
         }
@@ -461,25 +459,23 @@ impl<'a> StencilInPlace<'a> {
 
 impl NodeSums {
     fn find_gradients(&mut self, n: usize) {
-        let Self { area, gap_area, y, gradients, patches, points, rates, columns, starts, .. } = self;
-        let areas = [*gap_area, *area, *area];
+        let Self { area, y, gradients, patches, points, rates, columns, starts, .. } = self;
         gradients.clear();
         gradients.resize(COUNT * n, 0.0);
         let mut rates = &rates[..];
-        for NodePoint { of: (patch, k), weight, gap_weight, slip, .. } in points.iter() {
-            let weights = [gap_weight, weight, weight];
+        for NodePoint { of: (patch, k), weight, dual, slip, .. } in points.iter() {
             let (columns, point) = (&columns[starts[*patch]..starts[*patch + 1]], &patches[*patch].points[*k]);
             let (of_node, rest) = rates.split_at(columns.len());
             rates = rest;
             let of_point = patches[*patch].rates(*k);
             let values = [-point.gap - y[0], slip[0] - y[1], slip[1] - y[2]];
             for (i, (node, &j)) in of_node.iter().zip(columns).enumerate() {
-                let (slopes, moved) = (node.slopes(of_point.get(i)), [node.gap_weight, node.weight, node.weight]);
-                for c in 0..COUNT {
-                    gradients[c * n + j] += (moved[c] * values[c] + weights[c] * slopes[c]) / areas[c];
-                }
+                let slopes = node.slopes(of_point.get(i));
+                (0..COUNT).for_each(|c| gradients[c * n + j] += node.weight * values[c] + weight * slopes[c]);
+                gradients[j] -= node.dual * point.bulge + dual * of_point.get(i).map_or(0.0, |rate| rate.bulge);
             }
         }
+        gradients.iter_mut().for_each(|gradient| *gradient /= *area);
     }
 }
 
@@ -488,8 +484,8 @@ fn beside(line: MaterialLine, nodes: &[usize]) -> impl Iterator<Item = usize> {
     line.nodes.into_iter().filter(move |node| nodes.binary_search(node).is_err())
 }
 
-/// Adds what a node makes of the derivatives of a point, `functions` its function there and that of its gap with their slopes: along the
-/// unknowns of the patch, and along `count` in all with those of the line beside it.
+/// Adds what a node makes of the derivatives of a point, `functions` its function there and what of it is dual, with their slopes: along
+/// the unknowns of the patch, and along `count` in all with those of the line beside it.
 fn differentiate(
     (point, rates): (&PatchPoint, &[PointRates]),
     (at, line, functions, e): (&NodesInPlace, Option<MaterialLine>, [NodeFunction; 2], [Vec3; 2]),
@@ -508,7 +504,7 @@ fn differentiate(
         let column = node.map(|node| (node, j % axes)).or_else(behind);
         let turned = |line: MaterialLine| line.rates(column, (point.n, rate.n), &e);
         let de = line.map_or([rate.n.left(), Vec3::zero()], turned);
-        let [weight, gap_weight] = functions.map(|(value, slopes)| {
+        let [weight, dual] = functions.map(|(value, slopes)| {
             rate.weight * value + point.weight * (slopes[0] * rate.xi[0] + slopes[1] * rate.xi[1])
         });
         let rest = match (&turn, &slopes) {
@@ -535,7 +531,7 @@ fn differentiate(
         };
         out.push(NodeRates {
             weight,
-            gap_weight,
+            dual,
             e: de,
             slip: [0, 1].map(|a| de[a].dot(way) + rest[a]),
         });

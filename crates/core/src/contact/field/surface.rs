@@ -4,7 +4,7 @@
 //! the corner belongs to several nodes, one for each smooth piece. Each node has the mean of the area vectors of its
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
-use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
+use super::face::{CORNERS, FieldFace, MOST, PlacedFace, ShapeFunctions};
 use crate::mesh::{CREASE, Mesh, Side, Space};
 use crate::tensor::{DisjointSets, Vec3, invert};
 use std::collections::{BTreeMap, BTreeSet};
@@ -206,6 +206,24 @@ impl FieldSurface {
             inverse.iter_mut().zip(sums).for_each(|(row, sum)| row.iter_mut().for_each(|entry| *entry *= sum));
             inverse
         })
+    }
+
+    /// Functions of the nodes of the field on a face with a `share` of dual ones where those of its corners are these, and that share.
+    pub fn functions(&self, face: usize, share: f64, corners: &ShapeFunctions) -> [ShapeFunctions; 2] {
+        let (mut functions, mut part) = (*corners, ShapeFunctions::constant(0.0));
+        if let Some(dual) = self.duals[face].filter(|_| share > 0.0) {
+            for (i, row) in dual.iter().enumerate() {
+                let of =
+                    |value: &dyn Fn(usize) -> f64| -> f64 { row.iter().enumerate().map(|(j, d)| d * value(j)).sum() };
+                part.n[i] = share * of(&|j| corners.n[j]);
+                functions.n[i] += part.n[i] - share * corners.n[i];
+                for a in 0..2 {
+                    part.dn[i][a] = share * of(&|j| corners.dn[j][a]);
+                    functions.dn[i][a] += part.dn[i][a] - share * corners.dn[i][a];
+                }
+            }
+        }
+        [functions, part]
     }
 
     /// Whether faces in space around a common corner leave a side of it open.

@@ -508,13 +508,14 @@ impl NodesInPlace<'_> {
         let touched = recall(self, patch, xi);
         points.push(PatchPoint {
             number: 0,
-            corner: None,
+            vertex: None,
             xi,
             weight: tip.weight(),
             functions: ShapeFunctions::constant(1.0),
-            gap_functions: ShapeFunctions::constant(1.0),
+            straightened: ShapeFunctions::constant(0.0),
             shape: tip.foot.at.shape,
             gap: tip.foot.to.dot(n) - landing.radius,
+            bulge: 0.0,
             n,
             v: touched.map_or(Vec3::zero(), |touched| touched.tip - touched.now),
             y: tip.foot.centre - n * landing.radius,
@@ -549,6 +550,7 @@ impl NodesInPlace<'_> {
             rates.push(PointRates {
                 weight: tip.weight_rate(dxi, column),
                 xi: [dxi, 0.0],
+                bulge: 0.0,
                 gap: n.dot(apart) + if stays { dn.dot(to) } else { 0.0 },
                 n: dn,
                 v: point.touched.as_ref().map_or(Vec3::zero(), slid),

@@ -171,7 +171,8 @@ impl Configuration<'_> {
     fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
         let surface = &self.contact.parts.surface;
         let is_vertex = || surface.nodes[surface.field[patch.face][corner]].is_vertex;
-        if corner >= face.face.corners() || patch.dual > BLENDED || !is_vertex() {
+        let held = patch.dual > BLENDED && face.face.kind.degree == 1;
+        if corner >= face.face.corners() || held || !is_vertex() {
             return false;
         }
         let at = face.at(face.face.corner_place(corner));

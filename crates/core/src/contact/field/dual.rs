@@ -7,8 +7,8 @@ use super::point::smoothstep;
 use crate::contact::record::{entry, stresses};
 use crate::system::History;
 
-/// Friction, as sliding shear over pressure, between which dual functions of second degree in space become half at most: where it slides
-/// under more, an edge that leads digs in its nodes between the corners, which have no pressure of their own, and springs back.
+/// Friction, as sliding shear over pressure, between which dual functions of second degree become half at most: where it slides under
+/// more, an edge that leads digs itself in and springs back.
 const STEEP: [f64; 2] = [0.8, 1.0];
 /// Shear over pressure between which they then end.
 const SLIDING: [f64; 2] = [0.5, 0.9];
@@ -19,8 +19,8 @@ const BENT: [f64; 2] = [0.05, 0.2];
 pub(super) const BLENDED: f64 = 0.5;
 
 impl FieldContact {
-    /// Largest share of dual functions on each face in a state with these stresses: it ends where friction pushes an edge in, and
-    /// at an end of the surface that bends.
+    /// Largest share of dual functions on each face in a state with these stresses: less where friction pushes an edge in, and
+    /// none at an end of the surface that bends.
     pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<f64> {
         let (surface, law) = (&self.parts.surface, self.parts.law.first());
         let normal = |face: usize| surface.middle_normal(&surface.faces[face], &placed[face]);
@@ -42,8 +42,7 @@ impl FieldContact {
                     bend = bend.max(normal(face).cross(normal(other)).norm());
                 }
             }
-            let is_steep = !surface.plane && surface.faces[face].kind.degree > 1;
-            fade(bend, BENT) * if is_steep { steep } else { 1.0 }
+            fade(bend, BENT) * if surface.faces[face].kind.degree > 1 { steep } else { 1.0 }
         };
         (0..surface.faces.len()).map(|face| if surface.duals[face].is_some() { limit(face) } else { 1.0 }).collect()
     }

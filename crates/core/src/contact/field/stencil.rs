@@ -6,6 +6,7 @@
 
 use super::contact::FieldContact;
 use super::cover::Patch;
+use super::dual::BLENDED;
 use super::face::{FieldFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
 use super::point::{Facing, PatchPoint, PointRates, Sight};
@@ -263,7 +264,7 @@ impl<'a> StencilInPlace<'a> {
                     continue;
                 }
                 if point.vertex.is_some() {
-                    (sums.vertex, apart) = (Some(sums.points.len()), 1.0 - patch.patch.dual);
+                    (sums.vertex, apart) = (Some(sums.points.len()), (1.0 - patch.patch.dual).max(BLENDED));
                 }
                 let tangents = |line: Option<MaterialLine>, n: Vec3| {
                     line.map_or([n.left(), Vec3::axis(2)], |line| line.tangents(n))

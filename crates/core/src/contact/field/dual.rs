@@ -7,11 +7,11 @@ use super::point::smoothstep;
 use crate::contact::record::{entry, stresses};
 use crate::system::History;
 
-/// Friction, as sliding shear over pressure, between which dual functions of second degree become half at most: where it slides under
+/// Friction, as sliding shear over pressure, between which dual functions of second degree end where a contact is about to slide: under
 /// more, an edge that leads digs itself in and springs back.
 const STEEP: [f64; 2] = [0.8, 1.0];
-/// Shear over pressure between which they then end.
-const SLIDING: [f64; 2] = [0.5, 0.9];
+/// Shear over pressure of all of it between which it is.
+const SLIDING: [f64; 2] = [0.3, 0.6];
 /// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
 const BENT: [f64; 2] = [0.05, 0.2];
 
@@ -31,10 +31,10 @@ impl FieldContact {
             sliding += area * law.sliding_stress(p).unwrap_or(0.0);
             (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
         }
-        let [smooth, rest] = [(sliding, STEEP), (shear, SLIDING)].map(|(stress, range)| {
+        let [smooth, rests] = [(sliding, STEEP), (shear, SLIDING)].map(|(stress, range)| {
             if pressure > 0.0 { fade(stress / pressure, range) } else { 1.0 }
         });
-        let steep = smooth + (1.0 - smooth) * BLENDED * rest;
+        let steep = smooth + (1.0 - smooth) * rests;
         let limit = |face: usize| {
             let (mut bend, corners) = (0.0_f64, surface.faces[face].corners());
             if !surface.creased[face] && !surface.curved[face] {

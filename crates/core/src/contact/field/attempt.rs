@@ -48,8 +48,8 @@ pub struct FieldAttempt<'a> {
     pub tips_before: Vec<Option<TipFoot>>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
-    /// Largest share of dual functions on each face.
-    pub duals: Vec<f64>,
+    /// Largest share of dual functions of second degree.
+    pub second_degree: f64,
     /// Largest gap at which the target is seen.
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
@@ -86,7 +86,7 @@ pub struct FieldAttempt<'a> {
 
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> FieldSearch {
-        let now = Configuration { duals: &self.duals, ..Configuration::new(self.contact, u) };
+        let now = Configuration { second_degree: self.second_degree, ..Configuration::new(self.contact, u) };
         let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
         self.contact
             .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))

@@ -9,7 +9,7 @@ use super::cover::Patch;
 use super::dual::BLENDED;
 use super::face::{FieldFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
-use super::point::{Facing, PatchPoint, PointRates, Sight};
+use super::point::{Facing, PatchPoint, PointRates, Sight, smoothstep};
 use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
@@ -17,7 +17,7 @@ use super::twist::{Twist, spin};
 use crate::mesh::Side;
 use crate::tensor::Vec3;
 use std::rc::Rc;
-use vertex::VertexShare;
+use vertex::{DEEPER, VertexShare};
 
 mod vertex;
 
@@ -295,7 +295,7 @@ impl<'a> StencilInPlace<'a> {
         for NodePoint { of: (patch, k), weight, dual, slip, .. } in &sums.points {
             let point = &sums.patches[*patch].points[*k];
             area += weight;
-            moments[0] -= dual * point.bulge;
+            moments[0] -= dual * left_out(point, self.at.contact.size_at(self.slot))[0] * point.bulge;
             place += (point.y - point.n * point.gap) * *weight;
             for (moment, value) in moments.iter_mut().zip([-point.gap, slip[0], slip[1]]) {
                 *moment += weight * value;
@@ -307,7 +307,7 @@ impl<'a> StencilInPlace<'a> {
         (sums.area, sums.place) = (area, place * area.recip());
         sums.y = moments.map(|moment| moment / area);
         if derivatives {
-            sums.find_gradients(self.at.u.len());
+            sums.find_gradients(self.at.u.len(), self.at.contact.size_at(self.slot));
         }
         sums.press_vertex(apart * self.at.contact.size_at(self.slot), derivatives.then_some(self.at.u.len()));
         Some(())
@@ -459,7 +459,7 @@ impl<'a> StencilInPlace<'a> {
 }
 
 impl NodeSums {
-    fn find_gradients(&mut self, n: usize) {
+    fn find_gradients(&mut self, n: usize, size: f64) {
         let Self { area, y, gradients, patches, points, rates, columns, starts, .. } = self;
         gradients.clear();
         gradients.resize(COUNT * n, 0.0);
@@ -470,14 +470,24 @@ impl NodeSums {
             rates = rest;
             let of_point = patches[*patch].rates(*k);
             let values = [-point.gap - y[0], slip[0] - y[1], slip[1] - y[2]];
+            let [part, slope] = left_out(point, size);
             for (i, (node, &j)) in of_node.iter().zip(columns).enumerate() {
                 let slopes = node.slopes(of_point.get(i));
                 (0..COUNT).for_each(|c| gradients[c * n + j] += node.weight * values[c] + weight * slopes[c]);
-                gradients[j] -= node.dual * point.bulge + dual * of_point.get(i).map_or(0.0, |rate| rate.bulge);
+                let bulge = of_point.get(i).map_or(0.0, |rate| part * rate.bulge + slope * rate.gap * point.bulge);
+                gradients[j] -= node.dual * part * point.bulge + dual * bulge;
             }
         }
         gradients.iter_mut().for_each(|gradient| *gradient /= *area);
     }
+}
+
+/// Part of the bulge of a face of this `size` that the dual part of a gap leaves out, and its slope along the gap: none where the face lies
+/// deep in the target.
+fn left_out(point: &PatchPoint, size: f64) -> [f64; 2] {
+    let width = (DEEPER[1] - DEEPER[0]) * size;
+    let [counted, slope] = smoothstep((-point.gap - DEEPER[0] * size) / width);
+    [1.0 - counted, slope / width]
 }
 
 /// Nodes of a line that are not among those of a patch.

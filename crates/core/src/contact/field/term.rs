@@ -114,7 +114,7 @@ impl Term for FieldContact {
             history,
             accepted: &accepted.u,
             tips_before: self.tips_before(&before, history),
-            duals: self.dual_limits(&before.placed, history),
+            second_degree: self.second_degree_share(history),
             before,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),

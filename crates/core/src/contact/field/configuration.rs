@@ -21,8 +21,8 @@ pub struct Configuration<'a> {
     pub placed: Vec<PlacedFace>,
     /// Outward unit normals at the nodes of the field; none where nothing asks for them.
     pub normals: Vec<Vec3>,
-    /// Largest share of dual functions of second degree.
-    pub second_degree: f64,
+    /// Largest shares of dual functions at each node; none known are one.
+    pub duals: &'a [[f64; 2]],
     /// The target.
     pub target: TargetInPlace<'a>,
 }
@@ -52,7 +52,7 @@ impl<'a> Configuration<'a> {
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
-        Self { contact, placed, normals, second_degree: 1.0, target: contact.parts.target.at(site, u) }
+        Self { contact, placed, normals, duals: &[], target: contact.parts.target.at(site, u) }
     }
 
     /// A face of the surface.
@@ -163,9 +163,9 @@ impl Configuration<'_> {
         if !self.contact.is_sharp(patch) {
             return 0.0;
         }
-        let degree = self.contact.parts.surface.faces[patch.face].kind.degree;
-        let known = smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * if degree > 1 { self.second_degree } else { 1.0 };
-        known * self.contact.most_dual(patch) * self.contact.unbent_share(patch.face, &self.placed)
+        let known =
+            smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.contact.dual_limit(patch.face, self.duals);
+        known * self.contact.most_dual(patch)
     }
 
     /// Whether a corner of a face at which the surface ends sees a body within a patch, and is not held by dual functions.

@@ -4,8 +4,10 @@ use super::contact::{FieldContact, FieldTarget};
 use super::cover::Patch;
 use super::face::PlacedFace;
 use super::point::smoothstep;
+use super::surface::FieldNode;
 use crate::contact::record::{entry, stresses};
 use crate::system::History;
+use crate::tensor::Vec3;
 
 /// Friction, as sliding shear over pressure, between which dual functions of second degree end where a contact is about to slide: under
 /// more, an edge that leads digs itself in and springs back.
@@ -24,31 +26,46 @@ fn fade(x: f64, [from, to]: [f64; 2]) -> f64 {
 }
 
 impl FieldContact {
-    /// Largest share of dual functions of second degree after an accepted history: none where friction pushes an edge in.
-    pub(super) fn second_degree_share(&self, history: &History) -> f64 {
-        let (law, [mut sliding, mut shear, mut pressure]) = (self.parts.law.first(), [0.0; 3]);
+    /// Largest shares of dual functions at each node after an accepted history: less where the surface bends, and of those of second degree
+    /// where friction pushes an edge in.
+    pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<[f64; 2]> {
+        let (surface, law, [mut sliding, mut shear, mut pressure]) =
+            (&self.parts.surface, self.parts.law.first(), [0.0; 3]);
         for slot in (0..self.nodal_slots()).map(|slot| history.slot(slot)) {
             let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
             sliding += area * law.sliding_stress(p).unwrap_or(0.0);
             (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
         }
-        let [smooth, rests] = [(sliding, STEEP), (shear, SLIDING)].map(|(stress, range)| {
-            if pressure > 0.0 { fade(stress / pressure, range) } else { 1.0 }
-        });
-        smooth + (1.0 - smooth) * rests
+        let [smooth, rests] = [(sliding, STEEP), (shear, SLIDING)]
+            .map(|(stress, range)| if pressure > 0.0 { fade(stress / pressure, range) } else { 1.0 });
+        let normals: Vec<Vec3> =
+            surface.faces.iter().zip(placed).map(|(face, placed)| surface.middle_normal(face, placed)).collect();
+        let limits = |node: &FieldNode| {
+            let pairs = node.support.iter().flat_map(|&(f, _)| node.support.iter().map(move |&(g, _)| (f, g)));
+            let bend = pairs.map(|(f, g)| normals[f].cross(normals[g]).norm()).fold(0.0, f64::max);
+            [fade(bend, BENT), smooth + (1.0 - smooth) * rests]
+        };
+        surface.nodes.iter().map(limits).collect()
     }
 
-    /// Largest share of dual functions on a face by how it bends into those beside it.
-    pub(super) fn unbent_share(&self, face: usize, placed: &[PlacedFace]) -> f64 {
+    /// Those by which the stresses of an accepted history were found.
+    pub(super) fn known_limits(&self, history: &History) -> Vec<[f64; 2]> {
+        let of = |node: usize, entry: usize| {
+            let slots = (0..self.pieces).map(|piece| history.slot(self.slot(node, piece))[entry]);
+            slots.fold(0.0, f64::max)
+        };
+        (0..self.parts.surface.nodes.len()).map(|node| [entry::UNBENT, entry::AT_REST].map(|e| of(node, e))).collect()
+    }
+
+    /// Largest share of dual functions on a face with these limits at its nodes.
+    pub(super) fn dual_limit(&self, face: usize, limits: &[[f64; 2]]) -> f64 {
         let surface = &self.parts.surface;
-        if surface.creased[face] || surface.curved[face] {
-            return 1.0;
-        }
-        let normal = |face: usize| surface.middle_normal(&surface.faces[face], &placed[face]);
-        let nodes = surface.field[face][..surface.faces[face].corners()].iter();
-        let beside = nodes.flat_map(|&node| &surface.nodes[node].support);
-        let bend = beside.map(|&(other, _)| normal(face).cross(normal(other)).norm());
-        fade(bend.fold(0.0, f64::max), BENT)
+        let corners = &surface.field[face][..surface.faces[face].corners()];
+        let least =
+            |which: usize| corners.iter().filter_map(|&node| limits.get(node)).map(|l| l[which]).fold(1.0, f64::min);
+        let bends = !surface.creased[face] && !surface.curved[face];
+        let second = surface.faces[face].kind.degree > 1;
+        [bends, second].into_iter().enumerate().filter(|(_, counts)| *counts).map(|(which, _)| least(which)).product()
     }
 
     /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the

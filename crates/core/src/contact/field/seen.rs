@@ -115,8 +115,8 @@ impl FieldContact {
     /// history.
     pub(super) fn supports(&self, u: &[f64], reach: f64, history: Option<&History>) -> FieldSearch {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
-        let second_degree = history.map_or(1.0, |history| self.second_degree_share(history));
-        let now = Configuration { second_degree, ..now };
+        let duals = history.map_or(Vec::new(), |history| self.known_limits(history));
+        let now = Configuration { duals: &duals, ..now };
         let tips = match history {
             Some(history) => now.tips(self.longest, None, self.known_feet(history)),
             None => now.tips(self.longest, Some(&[]), |_| None),

@@ -17,7 +17,7 @@ use super::twist::{Twist, spin};
 use crate::mesh::Side;
 use crate::tensor::Vec3;
 use std::rc::Rc;
-use vertex::{DEEPER, VertexShare};
+use vertex::VertexShare;
 
 mod vertex;
 
@@ -482,12 +482,14 @@ impl NodeSums {
     }
 }
 
-/// Part of the bulge of a face of this `size` that the dual part of a gap leaves out, and its slope along the gap: none where the face lies
-/// deep in the target.
+/// Depth in the target, over the size of a face, from which on all of its bulge counts: as deep as the audit lets bodies lie in each other.
+const DEEP: f64 = 0.1;
+
+/// Part of the bulge of a face of this `size` that the dual part of a gap leaves out, less the deeper the face lies in the target; and its
+/// slope along the gap.
 fn left_out(point: &PatchPoint, size: f64) -> [f64; 2] {
-    let width = (DEEPER[1] - DEEPER[0]) * size;
-    let [counted, slope] = smoothstep((-point.gap - DEEPER[0] * size) / width);
-    [1.0 - counted, slope / width]
+    let [counted, slope] = smoothstep(-point.gap / (DEEP * size));
+    [1.0 - counted, slope / (DEEP * size)]
 }
 
 /// Nodes of a line that are not among those of a patch.
@@ -540,11 +542,6 @@ fn differentiate(
             }
             _ => e.map(|e| e.dot(rate.v)),
         };
-        out.push(NodeRates {
-            weight,
-            dual,
-            e: de,
-            slip: [0, 1].map(|a| de[a].dot(way) + rest[a]),
-        });
+        out.push(NodeRates { weight, dual, e: de, slip: [0, 1].map(|a| de[a].dot(way) + rest[a]) });
     }
 }

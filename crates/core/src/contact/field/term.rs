@@ -21,7 +21,7 @@ impl FieldContact {
         for slot in 0..self.slots() {
             let values = history.slot_mut(slot);
             values[entry::SEGMENT] = -1.0;
-            values[entry::HALF] = 1.0;
+            (values[entry::HALF], values[entry::UNBENT], values[entry::AT_REST]) = (1.0, 1.0, 1.0);
             self.parts.law.first().initial(&mut values[entry::COUNT..]);
         }
         let (still, fits) = (vec![0.0; u.len()], FITS * self.sagitta());
@@ -114,7 +114,7 @@ impl Term for FieldContact {
             history,
             accepted: &accepted.u,
             tips_before: self.tips_before(&before, history),
-            second_degree: self.second_degree_share(history),
+            duals: self.dual_limits(&before.placed, history),
             before,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),

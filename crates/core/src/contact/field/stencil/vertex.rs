@@ -8,9 +8,9 @@
 use super::{COUNT, NodePoint, NodeSums};
 use crate::contact::field::point::smoothstep;
 
-/// How much deeper than the mean of its node a vertex lies, or a face in the target, over the size of its faces, where it begins to bear and where it bears all: a
+/// How much deeper than the mean of its node a vertex lies, over the size of its faces, where it begins to bear and where it bears all: a
 /// block that is pressed and slides flat has less than the first, the audit lets bodies lie in each other by the second.
-pub(super) const DEEPER: [f64; 2] = [0.04, 0.12];
+const DEEPER: [f64; 2] = [0.04, 0.12];
 
 /// The vertex among the points of a node, with derivatives along each unknown.
 #[derive(Debug, Default)]

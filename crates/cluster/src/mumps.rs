@@ -131,7 +131,8 @@ impl Drop for Mumps {
     }
 }
 
-const SHORT: &str = "the factor does not fit into the memory of the ranks; more ranks on more machines, or an iterative `solver.petsc`";
+const SHORT: &str =
+    "the factor does not fit into the memory of the ranks; more ranks on more machines, or an iterative `solver.petsc`";
 
 fn told(code: c_int) -> String {
     if REFUSED.contains(&code) { SHORT.into() } else { format!("MUMPS: its error {code}") }

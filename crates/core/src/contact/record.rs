@@ -52,8 +52,12 @@ pub mod entry {
     pub const PRESSURE_BEFORE: usize = 21;
     /// Normal penalty of a node of a field, for undeformed area.
     pub const PENALTY: usize = 22;
+    /// Largest share of dual functions at a node of a field, by how the surface bends there,
+    pub const UNBENT: usize = 23;
+    /// and of those of second degree by how near the contact is to sliding.
+    pub const AT_REST: usize = 24;
     /// Number of these values.
-    pub const COUNT: usize = 23;
+    pub const COUNT: usize = 25;
 }
 
 /// What is said of an overlap.

@@ -48,8 +48,8 @@ pub struct FieldAttempt<'a> {
     pub tips_before: Vec<Option<TipFoot>>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
-    /// Largest share of dual functions on each face.
-    pub duals: Vec<f64>,
+    /// Largest shares of dual functions at each node.
+    pub duals: Vec<[f64; 2]>,
     /// Largest gap at which the target is seen.
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
@@ -280,6 +280,9 @@ impl FieldAttempt<'_> {
         let (contact, old) = (self.contact, self.history.slot(slot));
         new.fill(0.0);
         new[entry::SEGMENT] = -1.0;
+        if let Some(node) = contact.node_of(slot) {
+            [new[entry::UNBENT], new[entry::AT_REST]] = self.duals[node];
+        }
         if self.sum(stencil, false, sums).is_none() {
             if stencil.is_through() && old[entry::PRESSURE] != 0.0 {
                 let reason = format!("the target came through at {}", contact.name_of(slot));

@@ -21,8 +21,8 @@ pub struct Configuration<'a> {
     pub placed: Vec<PlacedFace>,
     /// Outward unit normals at the nodes of the field; none where nothing asks for them.
     pub normals: Vec<Vec3>,
-    /// Largest share of dual functions on each face; none known is one.
-    pub duals: &'a [f64],
+    /// Largest shares of dual functions at each node; none known are one.
+    pub duals: &'a [[f64; 2]],
     /// The target.
     pub target: TargetInPlace<'a>,
 }
@@ -163,8 +163,9 @@ impl Configuration<'_> {
         if !self.contact.is_sharp(patch) {
             return 0.0;
         }
-        let known = smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.duals.get(patch.face).unwrap_or(&1.0);
-        self.contact.most_dual(patch) * known
+        let known =
+            smoothstep((covered - COVERED) / (1.0 - COVERED))[0] * self.contact.dual_limit(patch.face, self.duals);
+        known * self.contact.most_dual(patch)
     }
 
     /// Whether a corner of a face at which the surface ends sees a body within a patch, and is not held by dual functions.

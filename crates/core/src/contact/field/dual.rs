@@ -4,8 +4,10 @@ use super::contact::{FieldContact, FieldTarget};
 use super::cover::Patch;
 use super::face::PlacedFace;
 use super::point::smoothstep;
+use super::surface::FieldNode;
 use crate::contact::record::{entry, stresses};
 use crate::system::History;
+use crate::tensor::Vec3;
 
 /// Friction, as sliding shear over pressure, between which dual functions of second degree end where a contact is about to slide: under
 /// more, an edge that leads digs itself in and springs back.
@@ -18,33 +20,52 @@ const BENT: [f64; 2] = [0.05, 0.2];
 /// Share of dual functions of whose sum with ordinary ones a gap that opens with the square of the distance has the mean zero.
 pub(super) const BLENDED: f64 = 0.5;
 
+/// A cubic that falls from one to zero over a range.
+fn fade(x: f64, [from, to]: [f64; 2]) -> f64 {
+    1.0 - smoothstep((x - from) / (to - from))[0]
+}
+
 impl FieldContact {
-    /// Largest share of dual functions on each face in a state with these stresses: less where friction pushes an edge in, and
-    /// none at an end of the surface that bends.
-    pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<f64> {
-        let (surface, law) = (&self.parts.surface, self.parts.law.first());
-        let normal = |face: usize| surface.middle_normal(&surface.faces[face], &placed[face]);
-        let fade = |x: f64, [from, to]: [f64; 2]| 1.0 - smoothstep((x - from) / (to - from))[0];
-        let (mut sliding, mut shear, mut pressure) = (0.0, 0.0, 0.0);
+    /// Largest shares of dual functions at each node after an accepted history: less where the surface bends, and of those of second degree
+    /// where friction pushes an edge in.
+    pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<[f64; 2]> {
+        let (surface, law, [mut sliding, mut shear, mut pressure]) =
+            (&self.parts.surface, self.parts.law.first(), [0.0; 3]);
         for slot in (0..self.nodal_slots()).map(|slot| history.slot(slot)) {
             let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
             sliding += area * law.sliding_stress(p).unwrap_or(0.0);
             (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
         }
-        let [smooth, rests] = [(sliding, STEEP), (shear, SLIDING)].map(|(stress, range)| {
-            if pressure > 0.0 { fade(stress / pressure, range) } else { 1.0 }
-        });
-        let steep = smooth + (1.0 - smooth) * rests;
-        let limit = |face: usize| {
-            let (mut bend, corners) = (0.0_f64, surface.faces[face].corners());
-            if !surface.creased[face] && !surface.curved[face] {
-                for &(other, _) in surface.field[face][..corners].iter().flat_map(|&node| &surface.nodes[node].support) {
-                    bend = bend.max(normal(face).cross(normal(other)).norm());
-                }
-            }
-            fade(bend, BENT) * if surface.faces[face].kind.degree > 1 { steep } else { 1.0 }
+        let [smooth, rests] = [(sliding, STEEP), (shear, SLIDING)]
+            .map(|(stress, range)| if pressure > 0.0 { fade(stress / pressure, range) } else { 1.0 });
+        let normals: Vec<Vec3> =
+            surface.faces.iter().zip(placed).map(|(face, placed)| surface.middle_normal(face, placed)).collect();
+        let limits = |node: &FieldNode| {
+            let pairs = node.support.iter().flat_map(|&(f, _)| node.support.iter().map(move |&(g, _)| (f, g)));
+            let bend = pairs.map(|(f, g)| normals[f].cross(normals[g]).norm()).fold(0.0, f64::max);
+            [fade(bend, BENT), smooth + (1.0 - smooth) * rests]
         };
-        (0..surface.faces.len()).map(|face| if surface.duals[face].is_some() { limit(face) } else { 1.0 }).collect()
+        surface.nodes.iter().map(limits).collect()
+    }
+
+    /// Those by which the stresses of an accepted history were found.
+    pub(super) fn known_limits(&self, history: &History) -> Vec<[f64; 2]> {
+        let of = |node: usize, entry: usize| {
+            let slots = (0..self.pieces).map(|piece| history.slot(self.slot(node, piece))[entry]);
+            slots.fold(0.0, f64::max)
+        };
+        (0..self.parts.surface.nodes.len()).map(|node| [entry::UNBENT, entry::AT_REST].map(|e| of(node, e))).collect()
+    }
+
+    /// Largest share of dual functions on a face with these limits at its nodes.
+    pub(super) fn dual_limit(&self, face: usize, limits: &[[f64; 2]]) -> f64 {
+        let surface = &self.parts.surface;
+        let corners = &surface.field[face][..surface.faces[face].corners()];
+        let least =
+            |which: usize| corners.iter().filter_map(|&node| limits.get(node)).map(|l| l[which]).fold(1.0, f64::min);
+        let bends = !surface.creased[face] && !surface.curved[face];
+        let second = surface.faces[face].kind.degree > 1;
+        [bends, second].into_iter().enumerate().filter(|(_, counts)| *counts).map(|(which, _)| least(which)).product()
     }
 
     /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the
@@ -63,8 +84,9 @@ impl FieldContact {
 
     /// Largest share of dual functions on a patch. Of a gap that opens from an edge with the square of the distance the mean with ordinary
     /// functions is a sixth of what it is at the far end of the face, with dual ones as much less than zero. The square of a face itself, as
-    /// of a plate which lifts off a table from where it is clamped, is therefore none of what the dual part has for the gap (a Petrov-Galerkin
-    /// method: forces are those of dual functions all the same, and constant pressures exact), that of a round target has half of each.
+    /// of a plate which lifts off a table from where it is clamped, is therefore none of what the dual part has for the gap, but where it
+    /// lies in the target (a Petrov-Galerkin method: forces are those of dual functions all the same, and constant pressures exact); over a
+    /// round target there is half of each.
     pub(super) fn most_dual(&self, patch: &Patch) -> f64 {
         let straight = match &self.parts.target {
             FieldTarget::Tool(tool) => tool.is_straight(patch.target),

@@ -115,7 +115,7 @@ impl FieldContact {
     /// history.
     pub(super) fn supports(&self, u: &[f64], reach: f64, history: Option<&History>) -> FieldSearch {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
-        let duals = history.map_or(Vec::new(), |history| self.dual_limits(&now.placed, history));
+        let duals = history.map_or(Vec::new(), |history| self.known_limits(history));
         let now = Configuration { duals: &duals, ..now };
         let tips = match history {
             Some(history) => now.tips(self.longest, None, self.known_feet(history)),

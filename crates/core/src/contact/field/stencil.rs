@@ -9,7 +9,7 @@ use super::cover::Patch;
 use super::dual::BLENDED;
 use super::face::{FieldFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
-use super::point::{Facing, PatchPoint, PointRates, Sight};
+use super::point::{Facing, PatchPoint, PointRates, Sight, smoothstep};
 use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
@@ -295,7 +295,7 @@ impl<'a> StencilInPlace<'a> {
         for NodePoint { of: (patch, k), weight, dual, slip, .. } in &sums.points {
             let point = &sums.patches[*patch].points[*k];
             area += weight;
-            moments[0] -= dual * point.bulge;
+            moments[0] -= dual * left_out(point, self.at.contact.size_at(self.slot))[0] * point.bulge;
             place += (point.y - point.n * point.gap) * *weight;
             for (moment, value) in moments.iter_mut().zip([-point.gap, slip[0], slip[1]]) {
                 *moment += weight * value;
@@ -307,7 +307,7 @@ impl<'a> StencilInPlace<'a> {
         (sums.area, sums.place) = (area, place * area.recip());
         sums.y = moments.map(|moment| moment / area);
         if derivatives {
-            sums.find_gradients(self.at.u.len());
+            sums.find_gradients(self.at.u.len(), self.at.contact.size_at(self.slot));
         }
         sums.press_vertex(apart * self.at.contact.size_at(self.slot), derivatives.then_some(self.at.u.len()));
         Some(())
@@ -459,7 +459,7 @@ impl<'a> StencilInPlace<'a> {
 }
 
 impl NodeSums {
-    fn find_gradients(&mut self, n: usize) {
+    fn find_gradients(&mut self, n: usize, size: f64) {
         let Self { area, y, gradients, patches, points, rates, columns, starts, .. } = self;
         gradients.clear();
         gradients.resize(COUNT * n, 0.0);
@@ -470,14 +470,26 @@ impl NodeSums {
             rates = rest;
             let of_point = patches[*patch].rates(*k);
             let values = [-point.gap - y[0], slip[0] - y[1], slip[1] - y[2]];
+            let [part, slope] = left_out(point, size);
             for (i, (node, &j)) in of_node.iter().zip(columns).enumerate() {
                 let slopes = node.slopes(of_point.get(i));
                 (0..COUNT).for_each(|c| gradients[c * n + j] += node.weight * values[c] + weight * slopes[c]);
-                gradients[j] -= node.dual * point.bulge + dual * of_point.get(i).map_or(0.0, |rate| rate.bulge);
+                let bulge = of_point.get(i).map_or(0.0, |rate| part * rate.bulge + slope * rate.gap * point.bulge);
+                gradients[j] -= node.dual * part * point.bulge + dual * bulge;
             }
         }
         gradients.iter_mut().for_each(|gradient| *gradient /= *area);
     }
+}
+
+/// Depth in the target, over the size of a face, from which on all of its bulge counts: as deep as the audit lets bodies lie in each other.
+const DEEP: f64 = 0.1;
+
+/// Part of the bulge of a face of this `size` that the dual part of a gap leaves out, less the deeper the face lies in the target; and its
+/// slope along the gap.
+fn left_out(point: &PatchPoint, size: f64) -> [f64; 2] {
+    let [counted, slope] = smoothstep(-point.gap / (DEEP * size));
+    [1.0 - counted, slope / (DEEP * size)]
 }
 
 /// Nodes of a line that are not among those of a patch.
@@ -530,11 +542,6 @@ fn differentiate(
             }
             _ => e.map(|e| e.dot(rate.v)),
         };
-        out.push(NodeRates {
-            weight,
-            dual,
-            e: de,
-            slip: [0, 1].map(|a| de[a].dot(way) + rest[a]),
-        });
+        out.push(NodeRates { weight, dual, e: de, slip: [0, 1].map(|a| de[a].dot(way) + rest[a]) });
     }
 }

@@ -21,7 +21,7 @@ impl FieldContact {
         for slot in 0..self.slots() {
             let values = history.slot_mut(slot);
             values[entry::SEGMENT] = -1.0;
-            values[entry::HALF] = 1.0;
+            (values[entry::HALF], values[entry::UNBENT], values[entry::AT_REST]) = (1.0, 1.0, 1.0);
             self.parts.law.first().initial(&mut values[entry::COUNT..]);
         }
         let (still, fits) = (vec![0.0; u.len()], FITS * self.sagitta());

@@ -166,7 +166,7 @@ fn tangents_at_edges_are_exact() {
     for cells in [["hex8", "hex8"], ["tet4", "hex8"], ["hex20", "tet10"]] {
         let model = model(&blocks(cells), &[]);
         let (contact, moving) = (&model.field_contacts[0], &model.mesh.groups["high"].nodes);
-        let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.04, [0.0; 3]), 15);
+        let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.04, [0.0; 3]), 20);
         assert!(
             met[1] + met[2] > 20 && 10 * skipped <= met.iter().sum::<usize>() && worst < TURNING,
             "{cells:?}: {met:?} {skipped} {worst:.1e}"

@@ -9,7 +9,7 @@ use super::cover::Patch;
 use super::dual::BLENDED;
 use super::face::{FieldFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
-use super::point::{Facing, PatchPoint, PointRates, Sight, smoothstep};
+use super::point::{Facing, PatchPoint, PointRates, Sight};
 use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
@@ -488,8 +488,8 @@ const DEEP: f64 = 0.1;
 /// Part of the bulge of a face of this `size` that the dual part of a gap leaves out, less the deeper the face lies in the target; and its
 /// slope along the gap.
 fn left_out(point: &PatchPoint, size: f64) -> [f64; 2] {
-    let [counted, slope] = smoothstep(-point.gap / (DEEP * size));
-    [1.0 - counted, slope / (DEEP * size)]
+    let t = (-point.gap / (DEEP * size)).clamp(0.0, 1.0);
+    [1.0 - t * t * t * (10.0 - 15.0 * t + 6.0 * t * t), 30.0 * (t * (1.0 - t)).powi(2) / (DEEP * size)]
 }
 
 /// Nodes of a line that are not among those of a patch.

@@ -64,8 +64,12 @@ impl FieldContact {
         let least =
             |which: usize| corners.iter().filter_map(|&node| limits.get(node)).map(|l| l[which]).fold(1.0, f64::min);
         let bends = !surface.creased[face] && !surface.curved[face];
-        let second = surface.faces[face].kind.degree > 1;
-        [bends, second].into_iter().enumerate().filter(|(_, counts)| *counts).map(|(which, _)| least(which)).product()
+        [bends, surface.can_bulge(face)]
+            .into_iter()
+            .enumerate()
+            .filter(|(_, counts)| *counts)
+            .map(|(which, _)| least(which))
+            .product()
     }
 
     /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the
@@ -85,13 +89,14 @@ impl FieldContact {
     /// Largest share of dual functions on a patch. Of a gap that opens from an edge with the square of the distance the mean with ordinary
     /// functions is a sixth of what it is at the far end of the face, with dual ones as much less than zero. The square of a face itself, as
     /// of a plate which lifts off a table from where it is clamped, is therefore none of what the dual part has for the gap, but where it
-    /// lies in the target (a Petrov-Galerkin method: forces are those of dual functions all the same, and constant pressures exact); over a
-    /// round target there is half of each.
+    /// lies in the target (a Petrov-Galerkin method: forces are those of dual functions all the same, and constant pressures exact). Where
+    /// the target or a face of second degree is round before any motion there is half of each.
     pub(super) fn most_dual(&self, patch: &Patch) -> f64 {
         let straight = match &self.parts.target {
             FieldTarget::Tool(tool) => tool.is_straight(patch.target),
             FieldTarget::Faces(faces) => !faces.surface.curved[patch.target],
         };
-        if straight { 1.0 } else { BLENDED }
+        let surface = &self.parts.surface;
+        if straight && !(surface.curved[patch.face] && surface.can_bulge(patch.face)) { 1.0 } else { BLENDED }
     }
 }

@@ -31,6 +31,8 @@ pub struct PatchInPlace<'a> {
     /// Middle of the face and the closest point of the tool where it has dual functions, some of which are negative: they are in sight
     /// together.
     pub middle: Option<(FaceFrame, NearestPoint)>,
+    /// Whether the dual part of the gap is that of a straight face between the corners.
+    pub straightens: bool,
     /// The part of the face that it is, where the border of a piece of a tool cuts that in space.
     pub cut: Option<CutFace>,
 }
@@ -65,6 +67,7 @@ impl<'a> PatchInPlace<'a> {
             interval: WHOLE,
             cubic: at.contact.is_cubic(patch),
             middle: None,
+            straightens: patch.dual > 0.0 && surface.can_bulge(patch.face) && !surface.curved[patch.face],
             cut: None,
         };
         if let Some(tool) = patch.tool.filter(|_| patch.patch.dual > 0.0) {

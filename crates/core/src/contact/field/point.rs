@@ -183,7 +183,7 @@ impl PatchInPlace<'_> {
         };
         let v = point.touched.as_ref().map_or(Vec3::zero(), follow);
         let mut bulge = 0.0;
-        if self.patch.dual > 0.0 && self.face.face.kind.degree > 1 {
+        if self.straightens {
             let (straight, corners) = (&frame.corners, self.face.corners());
             let [a, b] = straight.tangents(corners, self.face.plane);
             let corner = match column {

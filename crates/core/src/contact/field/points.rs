@@ -99,7 +99,8 @@ impl PatchPoints {
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
             let (shape, vertex) = (frame.shape, spot.vertex);
             let [functions, straightened] = surface.functions(patch.patch.face, patch.patch.dual, &frame.corners);
-            let bulge = (frame.x - frame.corners.value(patch.face.corners())).dot(n);
+            let bulge =
+                if patch.straightens { (frame.x - frame.corners.value(patch.face.corners())).dot(n) } else { 0.0 };
             self.points.push(PatchPoint {
                 number,
                 vertex,

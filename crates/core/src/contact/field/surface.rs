@@ -208,6 +208,11 @@ impl FieldSurface {
         })
     }
 
+    /// Whether a face is of second degree.
+    pub fn can_bulge(&self, face: usize) -> bool {
+        self.faces[face].kind.degree > 1
+    }
+
     /// Functions of the nodes of the field on a face with a `share` of dual ones where those of its corners are these, and that share.
     pub fn functions(&self, face: usize, share: f64, corners: &ShapeFunctions) -> [ShapeFunctions; 2] {
         let (mut functions, mut part) = (*corners, ShapeFunctions::constant(0.0));

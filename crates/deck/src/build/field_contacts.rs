@@ -67,7 +67,7 @@ impl Builder<'_> {
                 FieldSides::new([surface, others], may_swap, (&mesh, space, self.site.thickness))
             }
         };
-        let held = self.planes(&mesh).into_iter().flat_map(|(nodes, _)| nodes).collect();
+        let held: Vec<_> = self.planes(&mesh).into_iter().map(|(nodes, _)| nodes.into_iter().collect()).collect();
         let carrier = FieldSurface::held(&mesh, sides, (space, self.site.thickness), &held);
         let pieces = target.as_tool().map_or(1, |rigid| rigid.pieces());
         if carrier.nodes.len().saturating_mul(pieces) > MOST {

@@ -12,8 +12,8 @@ use crate::tensor::Vec3;
 /// Friction, as sliding shear over pressure, between which dual functions of second degree end where a contact is about to slide: under
 /// more, an edge that leads digs itself in and springs back.
 const STEEP: [f64; 2] = [0.8, 1.0];
-/// Shear over pressure of all of it between which it is.
-const SLIDING: [f64; 2] = [0.3, 0.6];
+/// Shear of all of it, over that under which it slides, between which it is.
+const SLIDING: [f64; 2] = [0.25, 0.5];
 /// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
 const BENT: [f64; 2] = [0.05, 0.2];
 
@@ -31,19 +31,24 @@ impl FieldContact {
     pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<[f64; 2]> {
         let (surface, law, [mut sliding, mut shear, mut pressure]) =
             (&self.parts.surface, self.parts.law.first(), [0.0; 3]);
-        for slot in (0..self.nodal_slots()).map(|slot| history.slot(slot)) {
+        // It does not rise again while anything touches, or it went to and fro from increment to increment.
+        let mut at_rest = 1.0_f64;
+        for slot in (0..self.nodal_slots()).map(|slot| history.slot(slot)).filter(|slot| slot[entry::STATUS] > 0.0) {
             let ([p, s, t, _], area) = (stresses(slot), slot[entry::XI]);
             sliding += area * law.sliding_stress(p).unwrap_or(0.0);
             (shear, pressure) = (shear + s.hypot(t) * area, pressure + p * area);
+            at_rest = at_rest.min(slot[entry::AT_REST]);
         }
-        let [smooth, rests] = [(sliding, STEEP), (shear, SLIDING)]
-            .map(|(stress, range)| if pressure > 0.0 { fade(stress / pressure, range) } else { 1.0 });
+        if sliding > 0.0 {
+            let smooth = fade(sliding / pressure, STEEP);
+            at_rest = at_rest.min(smooth + (1.0 - smooth) * fade(shear / sliding, SLIDING));
+        }
         let normals: Vec<Vec3> =
             surface.faces.iter().zip(placed).map(|(face, placed)| surface.middle_normal(face, placed)).collect();
         let limits = |node: &FieldNode| {
             let pairs = node.support.iter().flat_map(|&(f, _)| node.support.iter().map(move |&(g, _)| (f, g)));
             let bend = pairs.map(|(f, g)| normals[f].cross(normals[g]).norm()).fold(0.0, f64::max);
-            [fade(bend, BENT), smooth + (1.0 - smooth) * rests]
+            [fade(bend, BENT), at_rest]
         };
         surface.nodes.iter().map(limits).collect()
     }

@@ -80,11 +80,12 @@ pub struct FieldSurface {
 impl FieldSurface {
     /// The faces `sides` of a mesh in a space; `thickness` counts in the plane cases.
     pub fn new(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
-        Self::held(mesh, sides, (space, thickness), &BTreeSet::new())
+        Self::held(mesh, sides, (space, thickness), &[])
     }
 
-    /// The same where nodes are `held` by conditions: an end of the surface among these, as on a plane of symmetry, is no edge of a body.
-    pub fn held(mesh: &Mesh, sides: &[Side], (space, thickness): (Space, f64), held: &BTreeSet<usize>) -> Self {
+    /// The same where groups of nodes are `held` by conditions: an end of the surface in one of these, as on a plane of symmetry, is no edge
+    /// of a body.
+    pub fn held(mesh: &Mesh, sides: &[Side], (space, thickness): (Space, f64), held: &[BTreeSet<usize>]) -> Self {
         let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).pieces(mesh));
         Self::of(mesh, faces.collect(), (space, thickness), held)
     }
@@ -92,10 +93,10 @@ impl FieldSurface {
     /// The same with sides of second degree in one piece, as a target has them.
     pub fn whole(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
         let faces = sides.iter().map(|&side| FieldFace::new(mesh, side)).collect();
-        Self::of(mesh, faces, (space, thickness), &BTreeSet::new())
+        Self::of(mesh, faces, (space, thickness), &[])
     }
 
-    fn of(mesh: &Mesh, faces: Vec<FieldFace>, (space, thickness): (Space, f64), held: &BTreeSet<usize>) -> Self {
+    fn of(mesh: &Mesh, faces: Vec<FieldFace>, (space, thickness): (Space, f64), held: &[BTreeSet<usize>]) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
         let mut surface = Self { faces, plane, revolves, thickness, ..Self::default() };
@@ -104,7 +105,8 @@ impl FieldSurface {
     }
 
     /// Finds the smooth pieces and numbers the nodes of the field.
-    fn number(&mut self, mesh: &Mesh, held: &BTreeSet<usize>) {
+    fn number(&mut self, mesh: &Mesh, held: &[BTreeSet<usize>]) {
+        let is_held = |nodes: &[usize]| held.iter().any(|group| nodes.iter().all(|node| group.contains(node)));
         let axis = 1e-9 * mesh.size();
         let mut around: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (f, face) in self.faces.iter().enumerate() {
@@ -137,11 +139,13 @@ impl FieldSurface {
             let sides = || corners.iter().map(|&(f, _)| self.faces[f].side);
             if roots.len() > 1 {
                 creased.extend(sides());
-            } else if if self.plane { corners.len() == 1 } else { self.is_open(corners) } {
+            } else if self.plane && corners.len() == 1 {
                 // The axis of revolution is no edge either.
-                if !(held.contains(&node) || self.revolves && mesh.points[node][0].abs() <= axis) {
+                if !(is_held(&[node]) || self.revolves && mesh.points[node][0].abs() <= axis) {
                     ending.extend(sides());
                 }
+            } else if self.borders(corners).any(|end| !is_held(&[node, end])) {
+                ending.extend(sides());
             }
             for &root in &roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
@@ -168,7 +172,7 @@ impl FieldSurface {
         let mut across = vec![[false; 2]; self.faces.len()];
         let bounds = |(ends, around): &(&[usize; 2], &Vec<(usize, usize)>)| {
             let inner = matches!(around[..], [(f, _), (g, _)] if smooth(f, g));
-            !(inner || around.len() == 1 && ends.iter().all(|end| held.contains(end)))
+            !(inner || around.len() == 1 && is_held(&ends[..]))
         };
         for (_, around) in edges.iter().filter(bounds) {
             around.iter().for_each(|&(f, k)| across[f][(k + 1) % 2] = true);
@@ -231,8 +235,8 @@ impl FieldSurface {
         [functions, part]
     }
 
-    /// Whether faces in space around a common corner leave a side of it open.
-    fn is_open(&self, around: &[(usize, usize)]) -> bool {
+    /// Where edges end that faces in space around a common corner leave open.
+    fn borders(&self, around: &[(usize, usize)]) -> impl Iterator<Item = usize> + use<> {
         let mut edges = BTreeMap::new();
         for &(f, corner) in around.iter().filter(|_| !self.plane) {
             let (face, count) = (&self.faces[f], self.faces[f].corners());
@@ -241,13 +245,13 @@ impl FieldSurface {
                 *edges.entry(face.corner_node((corner + step) % count)).or_insert(0) += 1;
             });
         }
-        edges.values().any(|&count| count == 1)
+        edges.into_iter().filter(|(_, count)| *count == 1).map(|(end, _)| end)
     }
 
     /// Whether faces around a common corner end there with a vertex.
     fn is_vertex(&self, around: &[(usize, usize)], mesh: &Mesh) -> bool {
         let first = around.iter().all(|&(f, _)| self.faces[f].kind.degree == 1);
-        self.is_open(around) && (first || self.angle(around, mesh) < CORNER)
+        self.borders(around).next().is_some() && (first || self.angle(around, mesh) < CORNER)
     }
 
     /// Angle that faces around a common corner fill, before any motion.
@@ -368,7 +372,7 @@ impl FieldSurface {
         let mut sides: Vec<Side> = self.faces.iter().map(|face| face.side).collect();
         sides.dedup();
         whole.faces = sides.iter().map(|&side| FieldFace::new(mesh, side)).collect();
-        whole.number(mesh, &BTreeSet::new());
+        whole.number(mesh, &[]);
         let placed = |f: usize| whole.faces[f].at_rest(mesh);
         let middle = |f: usize| whole.faces[f].shape(whole.faces[f].middle()).value(placed(f).nodes());
         let rise = |f: usize| {

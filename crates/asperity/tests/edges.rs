@@ -45,6 +45,9 @@ fn error(cell: &str, cells: [usize; 3], floor: Floor, friction: f64) -> f64 {
         }
         None => ("tool.floor.profile = [{ line = [[20.0, 0.0], [-20.0, 0.0]] }]".into(), "floor", ""),
     };
+    // One cell thick between planes of symmetry.
+    let layer =
+        if solid && cells[2] == 1 && floor.is_none() { "symmetry = [\"block.back\", \"block.front\"]" } else { "" };
     let still = if solid { "z = 0.0" } else { "" };
     let [first, then] = [0.0, PUSHED].map(|x| format!("{{ x = {x}{}{still} }}", if solid { ", " } else { "" }));
     let deck = format!(
@@ -62,6 +65,7 @@ increments.count = 1
 displacement.edge = {first}
 gravity.y = -10.0
 {held}
+{layer}
 [[step]]
 displacement.edge = {then}
 "#
@@ -81,6 +85,8 @@ fn a_block_tips_over_its_edge_on_a_tool() {
         ("quad9", [2, 3, 0], 0.01),
         ("tri6", [2, 3, 0], 0.01),
         ("hex8", [4, 5, 3], 0.01),
+        ("hex8", [4, 5, 1], 0.01),
+        ("hex20", [2, 3, 2], 0.01),
         ("hex20", [2, 3, 1], 0.01),
         ("hex27", [2, 3, 1], 0.01),
         ("tet10", [2, 3, 2], 0.01),

@@ -13,7 +13,7 @@ use crate::tensor::Vec3;
 /// more, an edge that leads digs itself in and springs back.
 const STEEP: [f64; 2] = [0.8, 1.0];
 /// Shear of all of it, over that under which it slides, between which it is.
-const SLIDING: [f64; 2] = [0.25, 0.5];
+const SLIDING: [f64; 2] = [0.35, 0.6];
 /// Angle to the faces beside it between which they end at an end of the surface: the side of a billet that folds onto a tool is no edge.
 const BENT: [f64; 2] = [0.05, 0.2];
 

@@ -100,7 +100,7 @@ impl FieldContact {
             record.area = area * stencil.stretch().0;
             let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
             record.resultant = Some([force, sums.place]);
-            (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), thrust.unit());
+            (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), sums.facing());
             record.along = e1.unit();
             if !self.parts.surface.plane && sheared.norm() > 0.0 {
                 record.along = sheared.unit();

@@ -459,6 +459,16 @@ impl<'a> StencilInPlace<'a> {
 }
 
 impl NodeSums {
+    /// Mean outward normal of what the node sees.
+    pub fn facing(&self) -> Vec3 {
+        let normal = |point: &PatchPoint| match &point.sight {
+            Sight::Face(hit) => hit.normal(),
+            _ => -point.n,
+        };
+        let points = self.points.iter();
+        points.fold(Vec3::zero(), |sum, p| sum + normal(&self.patches[p.of.0].points[p.of.1]) * p.weight).unit()
+    }
+
     fn find_gradients(&mut self, n: usize, size: f64) {
         let Self { area, y, gradients, patches, points, rates, columns, starts, .. } = self;
         gradients.clear();

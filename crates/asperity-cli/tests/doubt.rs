@@ -116,6 +116,23 @@ displacement."block.bottom" = { x = 0.0, y = 0.0 }
 motion.plate = { y = -0.4 }
 "#;
 
+/// The edge of a beam, tilted on a step with coarser faces, slides under a pressure that follows the beam's own normal.
+const TILTED: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.beam.rectangle = { from = [0.0, 0.0], to = [10.0, 0.5], cells = [20, 2], cell = "quad8" }
+mesh.part.step.rectangle = { from = [8.0, -1.0], to = [14.0, 0.0], cells = [4, 1], cell = "quad8" }
+material.steel.elastic = { young = 1e4, poisson = 0.0 }
+body.beam.material = "steel"
+body.step.material = "steel"
+rigid.grip = { group = "beam.left", reference = [0.0, 0.25] }
+contact.end = { surface = "beam.bottom", target = "step.top", law.coulomb.friction = 0.3 }
+[[step]]
+increments = { count = 6 }
+motion.grip = { x = 0.0, y = 1.0, rotation = -12.0 }
+displacement."step.bottom" = { x = 0.0, y = 0.0 }
+"#;
+
 /// A plug that is confined, pressed in a single increment: nothing before it tells that the default penalty is too soft.
 const CONFINED: &str = r#"
 version = 1
@@ -289,6 +306,11 @@ fn a_corner_that_folds_into_a_tool() {
     run.doubts(&["interpenetration"], "body 'block' in tool 'plate'");
     assert!(run.notes().contains("one that goes round the corner"), "{}", run.notes());
     assert!(figure(&run, "node_depth") > 2.0 * figure(&run, "max_penetration_relative"));
+}
+
+#[test]
+fn an_edge_that_slides_tilted_on_a_body() {
+    Run::of(TILTED, &[]).doubts(&["friction_deviation"], "contact 'end'");
 }
 
 /// The decks of the turned pair also from the command line: two passes agree well enough where their points stand for the same parts.

@@ -123,8 +123,8 @@ pub static FIGURES: &[Figure] = &[
         "0.075",
         "Shear force of the slipping points of a contact on the target's normals, less what the law allows there, relative to \
          the shear force of the contact; where that is nothing, the shear force relative to the normal force.",
-        "form = \"field\", or a finer surface: with form = \"paper\" forces follow the edges of the strained surface, which turn out of \
-         what they touch",
+        "a finer surface, the flat side as `surface` with roles = \"given\", or form = \"field\" where it is not: forces between bodies follow \
+         the normals of the surface, which are not those of the target at an edge that is tilted",
     ),
     largest("closed_points", "closed points, at most"),
     largest("least_dissipation", "least dissipation").folded(Fold::Least),

@@ -291,8 +291,8 @@ fn forces_of_two_sides_that_differ() {
     assert_eq!(one.code(), 0, "{}", one.notes());
 }
 
-/// The corner goes where it does with the sides in the surface, without these squeezed by a quarter it folds into the plate behind a
-/// mean penetration that is small; with them the contact holds it out.
+/// Squeezed by a fifth the corners stay out of the plate, whether the sides are in the surface or not. By a quarter they fold into it where
+/// the sides are not, behind a mean penetration that is small.
 #[test]
 fn a_corner_that_folds_into_a_tool() {
     let figure = |run: &Run, name: &str| run.summary["certificate"][name].as_f64().unwrap();

@@ -26,6 +26,9 @@ const SOLVE: c_int = 3;
 const TOO_SMALL: [c_int; 6] = [-8, -9, -11, -14, -17, -20];
 const SINGULAR: c_int = -10;
 const REFUSED: [c_int; 3] = [-5, -7, -13];
+/// What is said where memory is short.
+const SHORT: &str =
+    "the factor does not fit into the memory of the ranks; more ranks on more machines, or an iterative `solver.petsc`";
 
 /// An instance of MUMPS for a pattern.
 pub struct Mumps {
@@ -130,9 +133,6 @@ impl Drop for Mumps {
         }
     }
 }
-
-const SHORT: &str =
-    "the factor does not fit into the memory of the ranks; more ranks on more machines, or an iterative `solver.petsc`";
 
 fn told(code: c_int) -> String {
     if REFUSED.contains(&code) { SHORT.into() } else { format!("MUMPS: its error {code}") }

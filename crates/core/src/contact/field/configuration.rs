@@ -83,12 +83,12 @@ impl Configuration<'_> {
     /// face of a body one.
     pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<SeenPart> {
         let (face, mut found) = (self.face(number), Vec::new());
-        let all = |target: usize| Patch::whole(number, target);
+        let patch = |target: usize| Patch::whole(number, target);
         match &self.target {
             TargetInPlace::Tool(tool) if face.plane => {
                 for piece in 0..self.contact.pieces {
                     over_piece(&face, (tool, piece), |interval, ends| {
-                        let mut part = Patch { near: interval, ends, ..all(piece) };
+                        let mut part = Patch { near: interval, ends, ..patch(piece) };
                         if interval == WHOLE {
                             part.dual = self.dual_share(&part, 1.0);
                         }
@@ -100,7 +100,7 @@ impl Configuration<'_> {
                 let rule: Vec<[f64; 2]> = whole(face.face.corners()).map(|place| place.xi).collect();
                 let corners: Vec<[f64; 2]> = (0..face.face.corners()).map(|c| face.face.corner_place(c)).collect();
                 let look = |piece: usize| {
-                    let all = all(piece);
+                    let all = patch(piece);
                     let sees = |xi: &[f64; 2]| tool.closest(piece, face.at(*xi).x).beyond.is_none();
                     if rule.iter().chain(&corners).all(sees) {
                         let dual = self.dual_share(&all, 1.0);
@@ -124,7 +124,7 @@ impl Configuration<'_> {
                     let part = FacePart::new(&face, faces.corners(target))?;
                     let (near, ends) =
                         if let FacePart::Interval(near, ends) = part { (near, ends) } else { (WHOLE, [None; 2]) };
-                    let seen = self.judge(&face, Patch { near, ends, ..all(target) }, &part.places())?;
+                    let seen = self.judge(&face, Patch { near, ends, ..patch(target) }, &part.places())?;
                     Some((seen, part, seen.middle))
                 };
                 let all: Vec<_> = candidates.filter_map(look).collect();
@@ -168,7 +168,7 @@ impl Configuration<'_> {
         known * self.contact.most_dual(patch)
     }
 
-    /// Whether a corner of a face at which the surface ends sees a body within a patch, and is not held by dual functions.
+    /// Whether a corner of a face at which the surface ends sees a body within a patch, and is not held by dual functions of first degree.
     fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
         let surface = &self.contact.parts.surface;
         let is_vertex = || surface.nodes[surface.field[patch.face][corner]].is_vertex;

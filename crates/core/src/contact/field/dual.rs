@@ -68,13 +68,8 @@ impl FieldContact {
         let corners = &surface.field[face][..surface.faces[face].corners()];
         let least =
             |which: usize| corners.iter().filter_map(|&node| limits.get(node)).map(|l| l[which]).fold(1.0, f64::min);
-        let bends = !surface.creased[face] && !surface.curved[face];
-        [bends, surface.can_bulge(face)]
-            .into_iter()
-            .enumerate()
-            .filter(|(_, counts)| *counts)
-            .map(|(which, _)| least(which))
-            .product()
+        let unbent = if surface.creased[face] || surface.curved[face] { 1.0 } else { least(0) };
+        if surface.faces[face].kind.degree > 1 { unbent * least(1) } else { unbent }
     }
 
     /// Whether dual functions (Wohlmuth, SIAM J. Numer. Anal. 38, 2000) are those of the nodes on a patch: their means are the gaps at the
@@ -83,12 +78,17 @@ impl FieldContact {
     /// where facets of first degree of a curve touch by their corners what is straight.
     pub(super) fn is_sharp(&self, patch: &Patch) -> bool {
         let (surface, face) = (&self.parts.surface, patch.face);
-        let flat = || match &self.parts.target {
-            FieldTarget::Tool(tool) => tool.is_straight(patch.target),
-            FieldTarget::Faces(faces) => !faces.surface.curved[patch.target],
-        };
         let facet = surface.plane && surface.faces[face].kind.degree == 1 && surface.curved[face];
-        surface.creased[face] || ((surface.ending[face] && !surface.curved[face] || facet) && flat())
+        surface.creased[face]
+            || ((surface.ending[face] && !surface.curved[face] || facet) && self.is_straight(patch.target))
+    }
+
+    /// Whether a piece or face of the target is no part of a curve.
+    fn is_straight(&self, target: usize) -> bool {
+        match &self.parts.target {
+            FieldTarget::Tool(tool) => tool.is_straight(target),
+            FieldTarget::Faces(faces) => !faces.surface.curved[target],
+        }
     }
 
     /// Largest share of dual functions on a patch. Of a gap that opens from an edge with the square of the distance the mean with ordinary
@@ -97,11 +97,8 @@ impl FieldContact {
     /// lies in the target (a Petrov-Galerkin method: forces are those of dual functions all the same, and constant pressures exact). Where
     /// the target or a face of second degree is round before any motion there is half of each.
     pub(super) fn most_dual(&self, patch: &Patch) -> f64 {
-        let straight = match &self.parts.target {
-            FieldTarget::Tool(tool) => tool.is_straight(patch.target),
-            FieldTarget::Faces(faces) => !faces.surface.curved[patch.target],
-        };
-        let surface = &self.parts.surface;
-        if straight && !(surface.curved[patch.face] && surface.can_bulge(patch.face)) { 1.0 } else { BLENDED }
+        let (surface, face) = (&self.parts.surface, patch.face);
+        let round = surface.curved[face] && surface.faces[face].kind.degree > 1;
+        if self.is_straight(patch.target) && !round { 1.0 } else { BLENDED }
     }
 }

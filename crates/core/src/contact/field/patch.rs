@@ -67,7 +67,7 @@ impl<'a> PatchInPlace<'a> {
             interval: WHOLE,
             cubic: at.contact.is_cubic(patch),
             middle: None,
-            straightens: patch.dual > 0.0 && surface.can_bulge(patch.face) && !surface.curved[patch.face],
+            straightens: patch.dual > 0.0 && face.face.kind.degree > 1 && !surface.curved[patch.face],
             cut: None,
         };
         if let Some(tool) = patch.tool.filter(|_| patch.patch.dual > 0.0) {

@@ -66,7 +66,7 @@ pub struct PatchPoint {
     /// Functions of the nodes of the field at the corners of the face,
     pub functions: ShapeFunctions,
     /// and what of these is dual.
-    pub straightened: ShapeFunctions,
+    pub dual: ShapeFunctions,
     /// Shape functions of the face.
     pub shape: ShapeFunctions,
     /// Gap, negative for penetration.

@@ -98,7 +98,7 @@ impl PatchPoints {
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
             let (shape, vertex) = (frame.shape, spot.vertex);
-            let [functions, straightened] = surface.functions(patch.patch.face, patch.patch.dual, &frame.corners);
+            let [functions, dual] = surface.functions(patch.patch.face, patch.patch.dual, &frame.corners);
             let bulge =
                 if patch.straightens { (frame.x - frame.corners.value(patch.face.corners())).dot(n) } else { 0.0 };
             self.points.push(PatchPoint {
@@ -107,7 +107,7 @@ impl PatchPoints {
                 xi,
                 weight,
                 functions,
-                straightened,
+                dual,
                 shape,
                 gap,
                 bulge,

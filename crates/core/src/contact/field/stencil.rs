@@ -243,7 +243,8 @@ impl<'a> StencilInPlace<'a> {
         sums.starts.clear();
         sums.rates.clear();
         sums.vertex = None;
-        // How far the mean of a node is from the place of its vertex, over that of ordinary functions.
+        // How far the mean of a node is from the place of its vertex, over that of ordinary functions; half at least, since the dual part
+        // of it in second degree knows no bulge.
         let mut apart = 1.0;
         let (line, surface) = (self.line(), &self.at.contact.parts.surface);
         for &(number, corner) in &self.found.supports[self.slot].patches {
@@ -277,7 +278,7 @@ impl<'a> StencilInPlace<'a> {
                 });
                 let twist = turn.map(|turn| turn.twist(point, e, &middle));
                 let way = twist.map_or(point.v, |twist| twist.way);
-                let functions = [&point.functions, &point.straightened];
+                let functions = [&point.functions, &point.dual];
                 let [weight, dual] = functions.map(|functions| point.weight * functions.n[corner]);
                 let (of, slip) = ((sums.patches.len(), k), e.map(|e| e.dot(way)));
                 sums.points.push(NodePoint { of, weight, shift: -weight, dual, e, slip });

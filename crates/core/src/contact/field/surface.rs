@@ -137,23 +137,22 @@ impl FieldSurface {
             }
             let roots: Vec<usize> = (0..corners.len()).filter(|&i| sets.root(i) == i).collect();
             let sides = || corners.iter().map(|&(f, _)| self.faces[f].side);
+            let axial = self.revolves && mesh.points[node][0].abs() <= axis;
+            // The axis of revolution is no edge either.
+            let ends = || match self.plane {
+                true => corners.len() == 1 && !is_held(&[node]) && !axial,
+                false => self.borders(corners).any(|end| !is_held(&[node, end])),
+            };
             if roots.len() > 1 {
                 creased.extend(sides());
-            } else if self.plane && corners.len() == 1 {
-                // The axis of revolution is no edge either.
-                if !(is_held(&[node]) || self.revolves && mesh.points[node][0].abs() <= axis) {
-                    ending.extend(sides());
-                }
-            } else if self.borders(corners).any(|end| !is_held(&[node, end])) {
+            } else if ends() {
                 ending.extend(sides());
             }
             for &root in &roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
                 let support: Vec<(usize, usize)> = members.map(|i| corners[i]).collect();
                 support.iter().for_each(|&(f, c)| field[f][c] = nodes.len());
-                let on_axis = self.revolves
-                    && mesh.points[node][0].abs() <= axis
-                    && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
+                let on_axis = axial && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
                 let is_vertex = roots.len() == 1 && self.is_vertex(&support, mesh);
                 nodes.push(FieldNode { node, support, is_vertex, on_axis });
             }
@@ -212,12 +211,8 @@ impl FieldSurface {
         })
     }
 
-    /// Whether a face is of second degree.
-    pub fn can_bulge(&self, face: usize) -> bool {
-        self.faces[face].kind.degree > 1
-    }
-
-    /// Functions of the nodes of the field on a face with a `share` of dual ones where those of its corners are these, and that share.
+    /// Functions of the nodes of the field on a face with a `share` of dual ones where those of its corners are these, and what of
+    /// them is dual.
     pub fn functions(&self, face: usize, share: f64, corners: &ShapeFunctions) -> [ShapeFunctions; 2] {
         let (mut functions, mut part) = (*corners, ShapeFunctions::constant(0.0));
         if let Some(dual) = self.duals[face].filter(|_| share > 0.0) {

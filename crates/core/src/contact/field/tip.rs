@@ -512,7 +512,7 @@ impl NodesInPlace<'_> {
             xi,
             weight: tip.weight(),
             functions: ShapeFunctions::constant(1.0),
-            straightened: ShapeFunctions::constant(0.0),
+            dual: ShapeFunctions::constant(0.0),
             shape: tip.foot.at.shape,
             gap: tip.foot.to.dot(n) - landing.radius,
             bulge: 0.0,

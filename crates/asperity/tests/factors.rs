@@ -78,11 +78,11 @@ fn a_matrix_that_cannot_be_is_refused_and_one_without_a_factor_left_out() {
         state
     };
     let impossible: [Spoil; 9] = [
-        &|matrix, _| Arc::make_mut(&mut matrix.columns)[1] = 0,
-        &|matrix, _| Arc::make_mut(&mut matrix.columns)[7] = usize::MAX,
-        &|matrix, _| Arc::make_mut(&mut matrix.starts)[4] = usize::MAX,
-        &|matrix, _| Arc::make_mut(&mut matrix.starts).clear(),
-        &|matrix, _| matrix.values.truncate(5),
+        &|matrix, _| matrix.pattern.0[1] = u32::MAX,
+        &|matrix, _| matrix.pattern.0[2] = u32::MAX,
+        &|matrix, _| matrix.pattern.0[0] = 7,
+        &|matrix, _| matrix.pattern.0.clear(),
+        &|matrix, _| Arc::make_mut(&mut matrix.values).truncate(5),
         &|matrix, _| *matrix.free.last_mut().expect("unknowns") = usize::MAX,
         &|_, near| near.at.push(usize::MAX),
         &|_, near| near.closed = vec![usize::MAX],
@@ -91,10 +91,11 @@ fn a_matrix_that_cannot_be_is_refused_and_one_without_a_factor_left_out() {
     for (number, spoil) in impossible.into_iter().enumerate() {
         assert!(model.problem.fits(&spoilt(spoil)).is_err(), "number {number}");
     }
-    let useless: [Spoil; 3] =
-        [&|matrix, _| matrix.values[3] = f64::NAN, &|matrix, _| matrix.values.fill(0.0), &|_, near| {
-            *near = Near { columns: vec![0], ..Near::default() }
-        }];
+    let useless: [Spoil; 3] = [
+        &|matrix, _| Arc::make_mut(&mut matrix.values)[3] = f64::NAN,
+        &|matrix, _| Arc::make_mut(&mut matrix.values).fill(0.0),
+        &|_, near| *near = Near { columns: vec![0], ..Near::default() },
+    ];
     let sound = go_on(&model, state.clone(), Some(1)).u;
     for (number, spoil) in useless.into_iter().enumerate() {
         let state = spoilt(spoil);

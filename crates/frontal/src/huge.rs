@@ -4,7 +4,7 @@
 
 /// Asks for huge pages for the memory of large arrays; nothing of what is in it changes, and nothing is lost where there are none.
 #[cfg(target_os = "linux")]
-pub(crate) fn ask<T>(numbers: &[T]) {
+pub fn ask<T>(numbers: &[T]) {
     let range = numbers.as_ptr_range();
     let (begin, end) = ((range.start as usize).next_multiple_of(PAGE), range.end as usize / PAGE * PAGE);
     if end > begin {
@@ -19,4 +19,4 @@ const PAGE: usize = 1 << 21;
 
 /// Elsewhere nothing is asked for.
 #[cfg(not(target_os = "linux"))]
-pub(crate) fn ask<T>(_: &[T]) {}
+pub fn ask<T>(_: &[T]) {}

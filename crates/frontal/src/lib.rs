@@ -75,6 +75,7 @@ pub use direct::Direct;
 pub use error::FrontalError;
 pub use factor::{Factor, PivotSigns, Report};
 pub use full::{Full, subtract_product};
+pub use huge::ask as ask_for_huge_pages;
 pub use krylov::{Convergence, Krylov};
 pub use options::{Amalgamation, Options, Ordering};
 pub use pattern::Pattern;

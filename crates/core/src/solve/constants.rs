@@ -66,7 +66,7 @@ pub mod demand {
         /// Where MUMPS factorises: for each unknown of the whole model, which all hold, and on the first rank besides; for each entry of
         /// the matrix that preconditions, which the first holds whole; for each entry of the rows of a rank.
         pub const PER_UNKNOWN: f64 = 2000.0;
-        pub const FIRST_PER_UNKNOWN: f64 = 3300.0;
+        pub const FIRST_PER_UNKNOWN: f64 = 400.0;
         pub const FIRST_PER_ENTRY: f64 = 4.0;
         pub const PER_ENTRY: f64 = 40.0;
         /// For each number of the factors, with working memory and reserve, where one rank has all; `n` ranks have `n` to this power of

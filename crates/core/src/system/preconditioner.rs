@@ -1,7 +1,7 @@
 //! What the linear solver of an increment begins with: a matrix that was factorised in an earlier one. It belongs to the
 //! accepted state, since it shows in the last digits of what comes.
 
-use super::{Csr, Dofs};
+use super::{Csr, Dofs, PackedPattern};
 use frontal::Service;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -22,12 +22,10 @@ pub struct Preconditioner {
 pub struct Factorised {
     /// Its unknowns, those that were free.
     pub free: Vec<usize>,
-    /// Its pattern, as in a [`Csr`].
-    pub starts: Arc<Vec<usize>>,
-    /// Columns of all rows.
-    pub columns: Arc<Vec<usize>>,
+    /// Its pattern.
+    pub pattern: PackedPattern,
     /// Its values, in the order of the pattern.
-    pub values: Vec<f64>,
+    pub values: Arc<Vec<f64>>,
 }
 
 /// Unknowns near contact, each list ascending.
@@ -44,25 +42,20 @@ pub struct Near {
 }
 
 impl Factorised {
-    /// Its pattern.
-    pub fn pattern(&self) -> Csr {
-        Csr::new(self.starts.clone(), self.columns.clone())
+    /// Its pattern; none where it is none of so many unknowns and values.
+    pub fn pattern(&self) -> Option<Csr> {
+        self.pattern.unpacked(self.free.len(), self.values.len())
     }
 }
 
 impl Preconditioner {
     /// Whether all of it can be one of a model with these unknowns.
     pub fn fits(&self, dofs: &Dofs) -> bool {
-        let (Factorised { free, starts, columns, values }, near) = (&*self.matrix, &self.near);
+        let (free, near) = (&self.matrix.free, &self.near);
         let ascend = |list: &[usize], end: usize| {
             list.windows(2).all(|pair| pair[0] < pair[1]) && list.last().is_none_or(|last| *last < end)
         };
-        let entries = columns.len();
-        let rows =
-            starts.len() == free.len() + 1 && starts[0] == 0 && starts[free.len()] == entries && starts.is_sorted();
-        let row = |range: &[usize]| ascend(&columns[range[0]..range[1]], free.len());
-        rows && starts.windows(2).all(row)
-            && entries == values.len()
+        self.matrix.pattern().is_some()
             && ascend(free, dofs.count())
             && ascend(&near.at, free.len())
             && ascend(&near.closed, free.len())

@@ -21,7 +21,7 @@ use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ASPERITY";
 /// Raised whenever the head or what the state holds changes.
-const VERSION: u32 = 15;
+const VERSION: u32 = 16;
 const HEAD: usize = 8 + 4 + 32 + 8 + 8 + 8 + 8;
 const SUM: usize = 32;
 
@@ -88,9 +88,12 @@ pub fn save<S: Serialize>(path: &Path, head: &Head, state: &S) -> Result<(), Err
     write_atomic(path, &bytes, Durability::Machine)
 }
 
+/// Level of the compression: numbers of a matrix hardly become fewer by more work.
+const FAST: i32 = 1;
+
 /// These bytes and a compressed state behind them.
 fn compressed<S: Serialize>(bytes: Vec<u8>, state: &S) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
-    let encoder = zstd::stream::Encoder::new(bytes, zstd::DEFAULT_COMPRESSION_LEVEL)?;
+    let encoder = zstd::stream::Encoder::new(bytes, FAST)?;
     let buffer = postcard::to_io(state, BufWriter::with_capacity(1 << 16, encoder))?;
     Ok(buffer.into_inner().map_err(std::io::IntoInnerError::into_error)?.finish()?)
 }

@@ -23,13 +23,25 @@ pub enum Durability {
 /// # Errors
 /// [`Error::Write`] with what the system said; the old file is then untouched.
 pub fn write_atomic(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), Error> {
+    write_in_parts(path, durability, |out| out.write_all(bytes))
+}
+
+/// The same with what `write` makes, part after part.
+///
+/// # Errors
+/// As those of [`write_atomic`].
+pub fn write_in_parts(
+    path: &Path,
+    durability: Durability,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), Error> {
     let directory = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
     let failed = |error: &dyn std::fmt::Display| Error::write(path, error);
     let mut file = NamedTempFile::with_prefix_in(TEMPORARY, directory).map_err(|e| failed(&e))?;
-    file.write_all(bytes).map_err(|e| failed(&e))?;
+    write(file.as_file_mut()).map_err(|e| failed(&e))?;
     share_with_others(&file).map_err(|e| failed(&e))?;
     if durability == Durability::Machine {
         file.as_file().sync_all().map_err(|e| failed(&e))?;

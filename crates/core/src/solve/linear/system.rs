@@ -9,7 +9,7 @@ use super::compliance::ContactCompliance;
 use super::low_rank::Rows;
 use super::{Factored, LinearError, LinearSolver, Unknowns, engine};
 use crate::Failure;
-use crate::system::{Csr, Dofs, Factorised, Preconditioner, Shares};
+use crate::system::{Csr, Dofs, Factorised, PackedPattern, Preconditioner, Shares};
 use frontal::{LowRankChange, Pattern, PivotSigns, Policy, Recycler, Scaling, Work};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -99,9 +99,9 @@ pub struct LinearSystem {
     free: Vec<usize>,
     number: usize,
     analysed: usize,
-    /// The matrix that was factorised last, where it may precondition others, and its factors of rows and columns. Of one that the
-    /// accepted state holds the first rank has all rows.
-    held: Option<Arc<Factorised>>,
+    /// The matrix that was factorised last, where it may precondition others, and its factors of rows and columns; whether the first
+    /// rank has all rows for the accepted state.
+    held: Option<Held>,
     collected: bool,
     scaling: Option<Scaling>,
     factored: Factored,
@@ -109,6 +109,21 @@ pub struct LinearSystem {
     direct: bool,
     compliance: ContactCompliance,
     counts: SolverCounts,
+}
+
+/// A matrix that was factorised, as the accepted state has it and as its rows of this rank are read.
+struct Held {
+    matrix: Arc<Factorised>,
+    starts: Arc<Vec<usize>>,
+    columns: Arc<Vec<usize>>,
+    /// Those of the rows first, on the first rank those of all then.
+    values: Arc<Vec<f64>>,
+}
+
+impl Held {
+    fn rows(&self) -> Rows<'_> {
+        Rows { starts: &self.starts, columns: &self.columns, values: &self.values[..self.columns.len()] }
+    }
 }
 
 impl LinearSystem {
@@ -207,25 +222,18 @@ impl LinearSystem {
     pub fn snapshot(&mut self) -> Result<Option<Preconditioner>, LinearError> {
         let (Some(service), Some(held)) = (self.recycler.service(), &mut self.held) else { return Ok(None) };
         if let Some(with) = self.shares.with().filter(|_| !self.collected) {
-            let collect = |numbers: &mut dyn Iterator<Item = f64>| {
-                with.collect(&numbers.collect::<Vec<_>>()).map_err(LinearError::Input)
-            };
-            let own = self.shares.own();
-            let lengths = collect(&mut own.map(|row| (held.starts[row + 1] - held.starts[row]) as f64))?;
-            let columns = collect(&mut held.columns.iter().map(|&column| column as f64))?;
-            let values = collect(&mut held.values.iter().copied())?;
+            let words: Vec<f64> = held.matrix.pattern.0.iter().map(|word| f64::from(*word)).collect();
+            let words = with.collect(&words).map_err(LinearError::Input)?;
+            let values = with.collect(&held.values).map_err(LinearError::Input)?;
             self.collected = true;
             if with.rank() == 0 {
-                let ends = lengths.iter().scan(0, |end, length| {
-                    *end += *length as usize;
-                    Some(*end)
-                });
-                let starts = Arc::new(std::iter::once(0).chain(ends).collect());
-                let columns = Arc::new(columns.into_iter().map(|column| column as usize).collect());
-                *held = Arc::new(Factorised { free: self.free.clone(), starts, columns, values });
+                let pattern = PackedPattern(words.into_iter().map(|word| word as u32).collect());
+                held.values = Arc::new(values);
+                let values = held.values.clone();
+                held.matrix = Arc::new(Factorised { free: self.free.clone(), pattern, values });
             }
         }
-        Ok(Some(Preconditioner { matrix: held.clone(), service, near: self.compliance.near() }))
+        Ok(Some(Preconditioner { matrix: held.matrix.clone(), service, near: self.compliance.near() }))
     }
 
     /// Begins a sequence of matrices over these free unknowns with what was there when the state was accepted.
@@ -286,15 +294,16 @@ impl LinearSystem {
         self.recycler.factorised(self.work(), None);
         if self.recycler.service().is_some() {
             // Its factor may serve on.
-            let Csr { starts, columns, .. } = &self.pattern;
-            self.held = Some(Arc::new(Factorised {
-                free: self.free.clone(),
-                starts: starts.clone(),
-                columns: columns.clone(),
-                values: values.to_vec(),
-            }));
+            let pattern = PackedPattern::of(&self.pattern, self.shares.own());
+            let values = Arc::new(values.to_vec());
+            self.hold(Factorised { free: self.free.clone(), pattern, values: values.clone() }.into(), values);
         }
         Ok(())
+    }
+
+    fn hold(&mut self, matrix: Arc<Factorised>, values: Arc<Vec<f64>>) {
+        let Csr { starts, columns, .. } = &self.pattern;
+        self.held = Some(Held { matrix, starts: starts.clone(), columns: columns.clone(), values });
     }
 
     /// What the factor there is takes; of one that the engine does not say it of none is to precondition.
@@ -315,10 +324,9 @@ impl LinearSystem {
         let Some(held) = &self.held else { return Ok(()) };
         let (closed, begun) = (sites.closed()?, Instant::now());
         let now = Rows { starts: &self.pattern.starts, columns: &self.pattern.columns, values };
-        let then = Rows { starts: &held.starts, columns: &held.columns, values: &held.values };
         self.compliance.cover(&sites.near(false));
         let engine = (self.engine.as_mut(), self.free.len());
-        let change = self.compliance.low_rank_update([now, then], &self.shares, &closed, engine)?;
+        let change = self.compliance.low_rank_update([now, held.rows()], &self.shares, &closed, engine)?;
         self.recycler.change(change);
         self.counts.complying += begun.elapsed();
         Ok(())
@@ -343,7 +351,7 @@ impl LinearSystem {
         }
         if self.scaling.is_none() {
             let largest = |x: &mut [f64]| shares.largest(x).map_err(LinearError::Input);
-            self.scaling = Some(Scaling::of(&of(&held.starts, &held.columns), &held.values, largest)?);
+            self.scaling = Some(Scaling::of(&of(&held.starts, &held.columns), held.rows().values, largest)?);
         }
         let Some(scaling) = &self.scaling else { return Ok(false) };
         // Each increment has its own, made by the same rules as the first.
@@ -362,7 +370,7 @@ impl LinearSystem {
     /// Sees to it that the factor is what it was when the state was accepted; false where the matrix has no factor, which
     /// is that of a damaged checkpoint then.
     fn take_up(&mut self, held: &Preconditioner) -> bool {
-        let same = self.held.as_ref().is_some_and(|own| Arc::ptr_eq(own, &held.matrix));
+        let same = self.held.as_ref().is_some_and(|own| Arc::ptr_eq(&own.matrix, &held.matrix));
         if same && self.recycler.service() == Some(held.service) && self.compliance.near() == held.near {
             return true;
         }
@@ -378,16 +386,18 @@ impl LinearSystem {
         // Neither is that of the matrices to come, as far as is known.
         self.free.clone_from(&matrix.free);
         self.shares = Shares::new(self.shares.with(), &self.dofs, &self.free);
-        let (pattern, mut entries) = (matrix.pattern(), 0..matrix.values.len());
+        let pattern = matrix.pattern().ok_or_else(|| LinearError::Other("a matrix without a pattern".into()))?;
+        let mut entries = 0..matrix.values.len();
         (self.analysed, self.number, self.pattern) = (0, NONE, pattern);
         if self.shares.with().is_some() {
             // From a checkpoint all rows are there.
             (self.pattern, entries) = self.pattern.rows_only(self.shares.own());
         }
-        self.factorise(&matrix.values[entries])?;
+        self.factorise(&matrix.values[entries.clone()])?;
         self.number = 0;
         self.analysed = 0;
-        self.held = Some(matrix.clone());
+        let values = if entries.start == 0 { matrix.values.clone() } else { matrix.values[entries].to_vec().into() };
+        self.hold(matrix.clone(), values);
         self.collected = true;
         Ok(())
     }

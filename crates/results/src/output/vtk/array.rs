@@ -1,5 +1,7 @@
 //! Arrays as a VTK file holds them: a type, a width, bytes.
 
+use std::io::Write;
+
 /// The values of an array, in the three types that the files use.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
@@ -38,16 +40,12 @@ impl Values {
             Self::Byte(values) => values.len(),
         }
     }
-    /// Adds the bytes, little-endian.
-    pub(super) fn append_to(&self, out: &mut Vec<u8>) {
-        let start = out.len();
-        out.resize(start + self.size(), 0);
-        let bytes = &mut out[start..];
-        let words = bytes.as_chunks_mut::<8>().0.iter_mut();
+    /// Writes the bytes, little-endian.
+    pub(super) fn write(&self, out: &mut dyn Write) -> std::io::Result<()> {
         match self {
-            Self::Real(values) => words.zip(values).for_each(|(word, x)| *word = x.to_le_bytes()),
-            Self::Integer(values) => words.zip(values).for_each(|(word, x)| *word = x.to_le_bytes()),
-            Self::Byte(values) => bytes.copy_from_slice(values),
+            Self::Real(values) => write_words(values, |x| x.to_le_bytes(), out),
+            Self::Integer(values) => write_words(values, |x| x.to_le_bytes(), out),
+            Self::Byte(values) => out.write_all(values),
         }
     }
     /// From bytes; none for a type that we do not write, or a length that is no whole number of values.
@@ -95,4 +93,15 @@ impl DataArray {
             _ => &[],
         }
     }
+}
+
+/// Writes numbers by a few thousand.
+fn write_words<T: Copy>(values: &[T], word: impl Fn(T) -> [u8; 8], out: &mut dyn Write) -> std::io::Result<()> {
+    let mut bytes = [0; 1 << 15];
+    for values in values.chunks(bytes.len() / 8) {
+        let words = &mut bytes.as_chunks_mut::<8>().0[..values.len()];
+        words.iter_mut().zip(values).for_each(|(to, value)| *to = word(*value));
+        out.write_all(words.as_flattened())?;
+    }
+    Ok(())
 }

@@ -3,7 +3,7 @@
 
 use super::grid::Grid;
 use super::write::{Encoding, escape};
-use crate::output::file::{self, Durability, write_atomic};
+use crate::output::file::{self, Durability, write_atomic, write_in_parts};
 use asperity_core::Error;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -71,7 +71,8 @@ impl PvdSeries {
         let relative = format!("{0}/{0}_{1:06}.vtu", self.name, self.frames.len());
         let path = self.directory.join(&relative);
         // Whole before the list names it; readers go by the list.
-        write_atomic(&path, &grid.to_bytes(self.encoding)?, Durability::Process)?;
+        let vtu = grid.to_vtu(self.encoding)?;
+        write_in_parts(&path, Durability::Process, |out| vtu.write(out))?;
         self.frames.push((grid.time, relative));
         write_atomic(&self.path(), self.list().as_bytes(), Durability::Process)
     }

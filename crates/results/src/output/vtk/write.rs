@@ -9,7 +9,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::io::Write as _;
+use std::io::Write;
 
 /// Bytes of one compressed block; VTK reads the blocks one by one.
 const BLOCK: usize = 1 << 20;
@@ -23,38 +23,69 @@ pub struct Encoding {
     pub compress: bool,
 }
 
-/// The arrays, one after another, and where each begins.
-struct Appended {
-    encoding: Encoding,
-    bytes: Vec<u8>,
+/// A grid as the file that holds it.
+pub struct Vtu<'a> {
+    grid: &'a Grid,
+    coordinates: [DataArray; 1],
+    cells: [DataArray; 3],
+    head: String,
+    /// What the arrays are laid down as, one after another, where that is not plain.
+    encoded: Vec<Option<Vec<u8>>>,
+}
+
+impl Vtu<'_> {
+    fn sections(&self) -> [Section<'_>; 4] {
+        let Self { grid, coordinates, cells, .. } = self;
+        let (count, cell_count) = (Some(grid.points.len()), Some(grid.cells.len()));
+        [
+            Section { name: "PointData", arrays: &grid.point_data, count },
+            Section { name: "CellData", arrays: &grid.cell_data, count: cell_count },
+            Section { name: "Points", arrays: coordinates, count },
+            Section { name: "Cells", arrays: cells, count: None },
+        ]
+    }
+
+    /// Writes all of it. What is plain goes through a small memory.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        out.write_all(self.head.as_bytes())?;
+        let arrays = self.sections().into_iter().flat_map(|section| section.arrays);
+        for (array, encoded) in arrays.zip(&self.encoded) {
+            match encoded {
+                Some(bytes) => out.write_all(bytes)?,
+                None => write_plain(&array.values, out)?,
+            }
+        }
+        out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+    }
 }
 
 impl Grid {
-    /// The bytes of a `.vtu` file.
+    /// The `.vtu` file of it.
     ///
     /// # Errors
     /// [`Error::Internal`] when an array does not fit the grid, or a block cannot be compressed.
-    pub fn to_bytes(&self, mut encoding: Encoding) -> Result<Vec<u8>, Error> {
+    pub fn to_vtu(&self, mut encoding: Encoding) -> Result<Vtu<'_>, Error> {
         let (coordinates, cells) = ([self.coordinates()], self.cell_arrays());
-        let (count, cell_count) = (Some(self.points.len()), Some(self.cells.len()));
-        let sections = [
-            Section { name: "PointData", arrays: &self.point_data, count },
-            Section { name: "CellData", arrays: &self.cell_data, count: cell_count },
-            Section { name: "Points", arrays: &coordinates, count },
-            Section { name: "Cells", arrays: &cells, count: None },
-        ];
-        encoding.base64 |= encoding == Encoding::default() && is_misread(&sections);
-        let mut appended = Appended { encoding, bytes: Vec::new() };
-        let mut head = self.head(encoding);
-        appended.bytes.reserve(sections.iter().map(Section::size).sum());
-        sections.iter().try_for_each(|section| section.write(&mut head, &mut appended))?;
+        let mut made = Vtu { grid: self, coordinates, cells, head: String::new(), encoded: Vec::new() };
+        encoding.base64 |= encoding == Encoding::default() && is_misread(&made.sections());
+        let (mut head, mut encoded, mut offset) = (self.head(encoding), Vec::new(), 0);
+        for section in made.sections() {
+            let _ = writeln!(head, "<{}>", section.name);
+            for array in section.checked()? {
+                let _ = writeln!(head, "{}", tag(array, offset));
+                let bytes = encoding.encode(&array.values)?;
+                offset += bytes.as_ref().map_or(array.values.size() + LENGTH, Vec::len);
+                encoded.push(bytes);
+            }
+            let _ = writeln!(head, "</{}>", section.name);
+        }
         let form = if encoding.base64 { "base64" } else { "raw" };
         let _ = write!(head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"{form}\">\n_");
-        // In the memory of the arrays, which is that of a whole grid.
-        let mut bytes = appended.bytes;
-        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-        bytes.splice(..0, head.into_bytes());
-        Ok(bytes)
+        (made.head, made.encoded) = (head, encoded);
+        Ok(made)
     }
 
     fn head(&self, encoding: Encoding) -> String {
@@ -85,32 +116,25 @@ struct Section<'a> {
     count: Option<usize>,
 }
 
-impl Section<'_> {
-    /// Bytes of the arrays and of their lengths as they are laid down plainly.
-    fn size(&self) -> usize {
-        self.arrays.iter().map(|array| array.values.size() + 8).sum()
-    }
-
-    fn write(&self, head: &mut String, appended: &mut Appended) -> Result<(), Error> {
-        let Self { name, arrays, count } = self;
-        let _ = writeln!(head, "<{name}>");
-        for array in *arrays {
+impl<'a> Section<'a> {
+    /// Its arrays, as long as they must be.
+    fn checked(&self) -> Result<&'a [DataArray], Error> {
+        let Self { arrays, count, .. } = *self;
+        for array in arrays {
             let (found, width) = (array.values.len(), array.components);
             if count.is_some_and(|count| count * width != found) {
                 let text = format!("array '{}' has {found} numbers on a grid of {count:?}", array.name);
                 return Err(Error::Internal(text));
             }
-            let _ = writeln!(head, "{}", tag(array, appended.push(&array.values)?));
         }
-        let _ = writeln!(head, "</{name}>");
-        Ok(())
+        Ok(arrays)
     }
 }
 
 /// Whether raw arrays at these offsets are mistaken for one another by meshio 5, which turns them into base64 one by one,
 /// writes down their new offsets and looks for the next one by its old offset, first from the front.
 fn is_misread(sections: &[Section]) -> bool {
-    let sizes = sections.iter().flat_map(|section| section.arrays).map(|array| array.values.size() + 8);
+    let sizes = sections.iter().flat_map(|section| section.arrays).map(|array| array.values.size() + LENGTH);
     let (mut old, mut new, mut before) = (0, 0, BTreeSet::new());
     for size in sizes {
         if before.contains(&old) {
@@ -137,40 +161,36 @@ fn tag(array: &DataArray, offset: usize) -> String {
     text
 }
 
-impl Appended {
-    /// Adds an array and returns its offset.
-    fn push(&mut self, values: &Values) -> Result<usize, Error> {
-        let offset = self.bytes.len();
-        if self.encoding == Encoding::default() {
-            add_plain(values, &mut self.bytes);
-            return Ok(offset);
+impl Encoding {
+    /// What an array is laid down as where that is not plain.
+    fn encode(self, values: &Values) -> Result<Option<Vec<u8>>, Error> {
+        if self == Self::default() {
+            return Ok(None);
         }
-        let mut data = Vec::with_capacity(values.size() + 8);
-        if self.encoding.compress {
-            values.append_to(&mut data);
-            let (head, body) = compressed(&data)?;
-            match self.encoding.base64 {
-                false => self.bytes.extend(head.into_iter().chain(body)),
+        let mut data = Vec::with_capacity(values.size() + LENGTH);
+        let bytes = match (self.compress, self.base64) {
+            (true, base64) => {
+                values.write(&mut data).map_err(broken)?;
+                let (head, body) = compressed(&data)?;
                 // A compressed array is two texts, its table of blocks and its blocks; an uncompressed one is a single text.
-                true => self.push_text(&[&head[..], &body[..]]),
+                if base64 { [head, body].map(|part| STANDARD.encode(part).into_bytes()) } else { [head, body] }.concat()
             }
-        } else {
-            add_plain(values, &mut data);
-            self.push_text(&[&data]);
-        }
-        Ok(offset)
-    }
-    fn push_text(&mut self, parts: &[&[u8]]) {
-        for part in parts {
-            self.bytes.extend(STANDARD.encode(part).into_bytes());
-        }
+            (false, _) => {
+                write_plain(values, &mut data).map_err(broken)?;
+                STANDARD.encode(&data).into_bytes()
+            }
+        };
+        Ok(Some(bytes))
     }
 }
 
+/// Bytes of the length of an array.
+const LENGTH: usize = 8;
+
 /// The length and the bytes.
-fn add_plain(values: &Values, out: &mut Vec<u8>) {
-    out.extend_from_slice(&(values.size() as u64).to_le_bytes());
-    values.append_to(out);
+fn write_plain(values: &Values, out: &mut dyn Write) -> std::io::Result<()> {
+    out.write_all(&(values.size() as u64).to_le_bytes())?;
+    values.write(out)
 }
 
 /// The table of blocks (how many, their size, the size of a shorter last one, the compressed sizes) and the blocks.
@@ -183,7 +203,11 @@ fn compressed(data: &[u8]) -> Result<(Vec<u8>, Vec<u8>), Error> {
 fn deflate(block: &[u8]) -> Result<Vec<u8>, Error> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     let done = encoder.write_all(block).and_then(|()| encoder.finish());
-    done.map_err(|error| Error::Internal(format!("an array cannot be compressed: {error}")))
+    done.map_err(broken)
+}
+
+fn broken(error: std::io::Error) -> Error {
+    Error::Internal(format!("an array cannot be compressed: {error}"))
 }
 
 /// A name as it may stand in an attribute.

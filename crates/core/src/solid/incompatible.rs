@@ -18,7 +18,8 @@
 
 use super::attempt::OpenBody;
 use super::gradient::{self, Rows, padded};
-use super::operator::{Nodal, Tangent, add_forces, deformation};
+use super::lanes::{add_multiple, dot};
+use super::operator::{Nodal, Tangent, add_forces_by, deformation};
 use super::point::PointStress;
 use super::{Body, Choice, Formulation, Strain};
 use crate::mesh::Space;
@@ -26,6 +27,7 @@ use crate::mesh::cells::Cell;
 use crate::system::Local;
 use crate::tensor::{Tensor2, Vec3, invert};
 use crate::{Failure, FailureKind};
+use pulp::{Arch, Simd, WithSimd};
 
 /// Most modes of a cell.
 const MOST: usize = 4;
@@ -302,6 +304,7 @@ impl OpenBody<'_> {
         let steepest = gradients.fold(0.0, |most: f64, g| most.max(g.norm()));
         let borne = self.borne_by_modes::<DIM, N>(index, &cell);
         let mut stresses = [Stress { p: [0.0; D], tangent: [[0.0; D]; D], volume: 0.0 }; POINTS];
+        let mut own = Own::new(DIM * modes);
         for _ in 0..LIMIT {
             local.reset(length);
             cell.move_to(&amplitudes);
@@ -310,7 +313,7 @@ impl OpenBody<'_> {
                 stresses[number] = Stress { p: s.p, tangent: s.tangent, volume };
             };
             let (force, _) = self.add_points::<DIM, D, N>((index, points), new, local, (None, None), Some(keep))?;
-            let mut own = Own::of(&cell, &stresses, DIM * modes);
+            Arch::new().dispatch(OwnSums { cell: &cell, stresses: &stresses, own: &mut own });
             own.force.iter_mut().zip(&borne).for_each(|(force, borne)| *force -= borne);
             if !own.solve() {
                 break;
@@ -320,7 +323,7 @@ impl OpenBody<'_> {
             if largest * steepest <= SMALL {
                 let places = self.body.amplitude_places(modes);
                 places.for_each(|(place, (mode, axis))| new[place] = amplitudes[mode][axis]);
-                cell.write((&stresses, &own), force, symmetric, local);
+                Arch::new().dispatch(Condense { cell: &cell, stresses: &stresses, own: &own, force, symmetric, local });
                 return Ok(());
             }
             (0..DIM * modes).for_each(|n| amplitudes[n / DIM][n % DIM] -= step[n]);
@@ -340,86 +343,135 @@ struct Stress<const D: usize> {
     volume: f64,
 }
 
+/// A value of each component of the deformation along each amplitude.
+type AlongAmplitudes<const D: usize> = [[f64; AMPLITUDES]; D];
+
 impl<const D: usize> Stress<D> {
-    /// Change of the stress along a deformation,
-    fn along(&self, f: &[f64; D]) -> [f64; D] {
-        std::array::from_fn(|d| work(&self.tangent[d], f))
-    }
-
-    /// and what makes the work of such a change on any deformation.
-    fn across(&self, f: &[f64; D]) -> [f64; D] {
-        let mut out = [0.0; D];
-        for (row, f) in self.tangent.iter().zip(f) {
-            out.iter_mut().zip(row).for_each(|(out, entry)| *out += f * entry);
+    /// Adds the changes of the stress along such changes of the deformation,
+    #[inline(always)]
+    fn along<S: Simd>(&self, simd: S, f: &AlongAmplitudes<D>, out: &mut AlongAmplitudes<D>) {
+        for (out, row) in out.iter_mut().zip(&self.tangent) {
+            for (entry, f) in row.iter().zip(f) {
+                add_multiple(simd, *entry, f, out);
+            }
         }
-        out
     }
-}
 
-fn work<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    /// and what makes the work of such changes on any deformation.
+    #[inline(always)]
+    fn across<S: Simd>(&self, simd: S, f: &AlongAmplitudes<D>, out: &mut AlongAmplitudes<D>) {
+        for (row, f) in self.tangent.iter().zip(f) {
+            for (out, entry) in out.iter_mut().zip(row) {
+                add_multiple(simd, *entry, f, out);
+            }
+        }
+    }
 }
 
 impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
-    /// Derivative of the deformation of a point along one amplitude.
-    fn along<const D: usize>(&self, point: &ModePoint<N>, (mode, axis): (usize, usize)) -> [f64; D] {
-        let mut out = [0.0; D];
-        for (i, out) in out.chunks_exact_mut(DIM).enumerate() {
-            let (by, of, row) = match mode {
-                VOLUME => (point.modes[mode][axis], &point.whole, i),
-                _ => (point.carried[mode][i], &point.inverse, axis),
-            };
-            out.iter_mut().enumerate().for_each(|(j, out)| *out = by * of[(row, j)]);
-        }
-        out
-    }
-
-    /// Derivative of the forces on the nodes along amplitudes in these shares, over which the stress of each point changes so, or of
-    /// the forces on those along the nodes.
-    fn coupling<const D: usize>(
-        &self,
-        stresses: &[Stress<D>; POINTS],
-        changes: &[[f64; D]; POINTS],
-        shares: &Amplitudes,
-    ) -> Nodal<DIM, N> {
-        let (mut out, mut second) = ([[0.0; N]; DIM], [Vec3::zero(); DIM]);
-        for ((point, s), change) in self.points[..self.count].iter().zip(stresses).zip(changes) {
-            add_forces(&point.rows, change, s.volume, &mut out);
-            // The stress on the second derivative of f, dF0 sum_k G_k (x) da_k.
-            for (second, s_i) in second.iter_mut().zip(s.p.chunks_exact(DIM)) {
-                let pulled = Vec3(std::array::from_fn(|axis| {
-                    s_i.iter().enumerate().map(|(j, p)| p * point.inverse[(axis, j)]).sum::<f64>() * s.volume
-                }));
-                let along = point.modes.iter().zip(shares).take(VOLUME);
-                *second = along.fold(*second, |sum, (g, a)| sum + *g * a.dot(pulled))
-                    + pulled * point.modes[VOLUME].dot(shares[VOLUME]);
+    /// Derivatives of the deformation of a point along so many amplitudes.
+    #[inline(always)]
+    fn along<const D: usize>(&self, point: &ModePoint<N>, count: usize, out: &mut AlongAmplitudes<D>) {
+        for n in 0..count {
+            let (mode, axis) = (n / DIM, n % DIM);
+            for (i, out) in out.chunks_exact_mut(DIM).enumerate() {
+                let (by, of, row) = match mode {
+                    VOLUME => (point.modes[mode][axis], &point.whole, i),
+                    _ => (point.carried[mode][i], &point.inverse, axis),
+                };
+                out.iter_mut().enumerate().for_each(|(j, out)| out[n] = by * of[(row, j)]);
             }
         }
-        if self.strain == Strain::Finite {
-            for (out, second) in out.iter_mut().zip(second) {
-                for (mean, by) in self.mean.iter().zip(second.0) {
-                    out.iter_mut().zip(mean).for_each(|(out, mean)| *out += by * mean);
+    }
+
+    /// The stress on the second derivatives of the deformation, `dF0 sum_k G_k (x) da_k`, along each amplitude: a gradient over the
+    /// undeformed cell for each axis of forces. None in small strain.
+    fn second<const D: usize>(&self, stresses: &[Stress<D>; POINTS], count: usize) -> [[Vec3; DIM]; AMPLITUDES] {
+        let mut out = [[Vec3::zero(); DIM]; AMPLITUDES];
+        for (point, s) in self.points[..self.count].iter().zip(stresses).filter(|_| self.strain == Strain::Finite) {
+            for (i, s_i) in s.p.chunks_exact(DIM).enumerate() {
+                let pulled: Vec3 = Vec3(std::array::from_fn(|axis| {
+                    s_i.iter().enumerate().map(|(j, p)| p * point.inverse[(axis, j)]).sum::<f64>() * s.volume
+                }));
+                for (n, out) in out.iter_mut().enumerate().take(count) {
+                    let (g, axis) = (point.modes[n / DIM], n % DIM);
+                    out[i] += if n / DIM == VOLUME { pulled * g[axis] } else { g * pulled[axis] };
                 }
             }
         }
         out
     }
 
-    /// Writes the forces on the nodes with the amplitudes in equilibrium, and the tangent without them where it is wanted.
-    fn write<const D: usize>(
+    /// Derivative of the forces on the nodes along a motion of the amplitudes over which the stresses of the points change so, with its
+    /// `second` derivatives, or of the forces on those along the nodes.
+    #[inline(always)]
+    fn coupling<S: Simd, const D: usize>(
         &self,
-        (stresses, own): (&[Stress<D>; POINTS], &Own<D>),
-        force: Nodal<DIM, N>,
-        symmetric: bool,
-        local: &mut Local,
-    ) {
-        let (count, length) = (own.count, local.u.len());
-        let step = own.step();
-        let changes = own.changes(stresses, |along| {
-            let entry = |d: usize| along.iter().zip(&step).map(|(along, step)| along[d] * step).sum();
-            std::array::from_fn(entry)
+        simd: S,
+        stresses: &[Stress<D>; POINTS],
+        changes: &[[f64; D]; POINTS],
+        second: &[Vec3; DIM],
+    ) -> Nodal<DIM, N> {
+        let mut out = [[0.0; N]; DIM];
+        for ((point, s), change) in self.points[..self.count].iter().zip(stresses).zip(changes) {
+            add_forces_by(simd, &point.rows, (change, s.volume), &mut out);
+        }
+        for (out, second) in out.iter_mut().zip(second) {
+            for (mean, by) in self.mean.iter().zip(second.0) {
+                add_multiple(simd, by, mean, out);
+            }
+        }
+        out
+    }
+
+    /// The same along amplitude `n`, unknown by unknown.
+    #[inline(always)]
+    fn coupled<S: Simd, const D: usize>(
+        &self,
+        simd: S,
+        stresses: &[Stress<D>; POINTS],
+        (changes, n): (&[AlongAmplitudes<D>; POINTS], usize),
+        second: &[Vec3; DIM],
+    ) -> [f64; UNKNOWNS] {
+        let changes = changes.each_ref().map(|changes| changes.map(|change| change[n]));
+        let (nodal, mut out) = (self.coupling(simd, stresses, &changes, second), [0.0; UNKNOWNS]);
+        for (i, nodal) in nodal.iter().enumerate() {
+            out[i..].iter_mut().step_by(DIM).zip(nodal).for_each(|(out, nodal)| *out = *nodal);
+        }
+        out
+    }
+}
+
+/// Writes the forces on the nodes with the amplitudes in equilibrium, and the tangent without them where it is wanted.
+struct Condense<'a, const DIM: usize, const D: usize, const N: usize> {
+    cell: &'a ModeCell<DIM, N>,
+    stresses: &'a [Stress<D>; POINTS],
+    own: &'a Own<D>,
+    force: Nodal<DIM, N>,
+    symmetric: bool,
+    local: &'a mut Local,
+}
+
+impl<const DIM: usize, const D: usize, const N: usize> WithSimd for Condense<'_, DIM, D, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { cell, stresses, own, force, symmetric, local } = self;
+        let (count, length, step) = (own.count, local.u.len(), own.step());
+        let second = cell.second(stresses, count);
+        let mut along = [[0.0; D]; POINTS];
+        for ((change, s), along) in along.iter_mut().zip(stresses).zip(&own.along) {
+            let mut f = [0.0; D];
+            for (f, along) in f.iter_mut().zip(along) {
+                *f = dot(simd, along, &step);
+            }
+            *change = s.tangent.map(|row| row.iter().zip(&f).map(|(entry, f)| entry * f).sum());
+        }
+        let bent = std::array::from_fn(|i| {
+            second.iter().zip(&step).fold(Vec3::zero(), |sum, (second, step)| sum + second[i] * *step)
         });
-        let last = self.coupling(stresses, &changes, &shares::<DIM>(|n| step[n], count));
+        let last = cell.coupling(simd, stresses, &along, &bent);
         for (r, out) in local.force.iter_mut().enumerate() {
             *out = force[r % DIM][r / DIM] - last[r % DIM][r / DIM];
         }
@@ -427,35 +479,37 @@ impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
             return;
         }
         let mut tangent = Tangent::<DIM, N>::zero(length / DIM, symmetric);
-        for (point, s) in self.points[..self.count].iter().zip(stresses) {
+        for (point, s) in cell.points[..cell.count].iter().zip(stresses) {
             tangent.add(&point.rows, &s.tangent, s.volume);
         }
         tangent.write(length, &mut local.tangent);
         let (mut columns, mut rows) = ([[0.0; UNKNOWNS]; AMPLITUDES], [[0.0; UNKNOWNS]; AMPLITUDES]);
-        for n in 0..count {
-            let unit = shares::<DIM>(|m| f64::from(u8::from(m == n)), count);
-            let spread = |nodal: &Nodal<DIM, N>, out: &mut [f64; UNKNOWNS]| {
-                out[..length].iter_mut().enumerate().for_each(|(r, out)| *out = nodal[r % DIM][r / DIM]);
-            };
-            let across = std::array::from_fn(|point| own.across[point][n]);
-            spread(&self.coupling(stresses, &across, &unit), &mut rows[n]);
-            if symmetric {
-                columns[n] = rows[n];
-            } else {
-                let changes = own.changes(stresses, |along| along[n]);
-                spread(&self.coupling(stresses, &changes, &unit), &mut columns[n]);
+        let mut changes = None;
+        if !symmetric {
+            let changes = changes.insert([[[0.0; AMPLITUDES]; D]; POINTS]);
+            for ((changes, s), along) in changes.iter_mut().zip(stresses).zip(&own.along) {
+                s.along(simd, along, changes);
             }
+        }
+        for n in 0..count {
+            rows[n] = cell.coupled(simd, stresses, (&own.across, n), &second[n]);
+            columns[n] = match &changes {
+                Some(changes) => cell.coupled(simd, stresses, (changes, n), &second[n]),
+                None => rows[n],
+            };
         }
         let mut follows = [[0.0; UNKNOWNS]; AMPLITUDES];
         for (follows, inverse) in follows.iter_mut().zip(&own.inverse).take(count) {
             for (by, row) in inverse.iter().zip(&rows).take(count) {
-                follows.iter_mut().zip(row).for_each(|(follows, row)| *follows += by * row);
+                add_multiple(simd, *by, row, follows);
             }
         }
         for (r, out) in local.tangent.chunks_exact_mut(length).enumerate() {
+            let mut all = [0.0; UNKNOWNS];
             for (column, follows) in columns.iter().zip(&follows).take(count) {
-                out.iter_mut().zip(follows).for_each(|(out, follows)| *out -= column[r] * follows);
+                add_multiple(simd, column[r], follows, &mut all);
             }
+            out.iter_mut().zip(all).for_each(|(out, all)| *out -= all);
         }
         if symmetric {
             (0..length).for_each(|r| {
@@ -465,19 +519,12 @@ impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
     }
 }
 
-/// Amplitudes from a list of them.
-fn shares<const DIM: usize>(of: impl Fn(usize) -> f64, count: usize) -> Amplitudes {
-    let mut out = [Vec3::zero(); MOST];
-    (0..count).for_each(|n| out[n / DIM][n % DIM] = of(n));
-    out
-}
-
 /// The equations of the amplitudes of a cell at given displacements of its nodes.
 struct Own<const D: usize> {
     /// Derivatives of the deformation of each point along each of them, and what makes the work on any deformation of the change of
     /// stress over such a one.
-    along: [[[f64; D]; AMPLITUDES]; POINTS],
-    across: [[[f64; D]; AMPLITUDES]; POINTS],
+    along: [AlongAmplitudes<D>; POINTS],
+    across: [AlongAmplitudes<D>; POINTS],
     /// Derivatives of the forces on them, and the inverse.
     stiffness: [[f64; AMPLITUDES]; AMPLITUDES],
     inverse: [[f64; AMPLITUDES]; AMPLITUDES],
@@ -485,37 +532,40 @@ struct Own<const D: usize> {
     count: usize,
 }
 
-impl<const D: usize> Own<D> {
-    fn of<const DIM: usize, const N: usize>(
-        cell: &ModeCell<DIM, N>,
-        stresses: &[Stress<D>; POINTS],
-        count: usize,
-    ) -> Self {
-        let (none, no_change) = ([[0.0; AMPLITUDES]; AMPLITUDES], [[[0.0; D]; AMPLITUDES]; POINTS]);
-        let (along, across, force) = (no_change, no_change, [0.0; AMPLITUDES]);
-        let mut own = Self { along, across, stiffness: none, inverse: none, force, count };
+/// Sums these equations over the points.
+struct OwnSums<'a, const DIM: usize, const D: usize, const N: usize> {
+    cell: &'a ModeCell<DIM, N>,
+    stresses: &'a [Stress<D>; POINTS],
+    own: &'a mut Own<D>,
+}
+
+impl<const DIM: usize, const D: usize, const N: usize> WithSimd for OwnSums<'_, DIM, D, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { cell, stresses, own } = self;
+        (own.stiffness, own.force) = ([[0.0; AMPLITUDES]; AMPLITUDES], [0.0; AMPLITUDES]);
         for (number, (point, s)) in cell.points[..cell.count].iter().zip(stresses).enumerate() {
             let (along, across) = (&mut own.along[number], &mut own.across[number]);
-            for n in 0..count {
-                along[n] = cell.along(point, (n / DIM, n % DIM));
-                across[n] = s.across(&along[n]);
-                own.force[n] += s.volume * work(&along[n], &s.p);
-            }
-            for (stiffness, across) in own.stiffness.iter_mut().zip(&*across).take(count) {
-                let row = stiffness.iter_mut().zip(&*along).take(count);
-                row.for_each(|(stiffness, along)| *stiffness += s.volume * work(along, across));
+            *across = [[0.0; AMPLITUDES]; D];
+            cell.along(point, own.count, along);
+            s.across(simd, along, across);
+            for ((along, across), p) in along.iter().zip(&*across).zip(&s.p) {
+                add_multiple(simd, s.volume * p, along, &mut own.force);
+                for (stiffness, across) in own.stiffness.iter_mut().zip(across).take(own.count) {
+                    add_multiple(simd, s.volume * across, along, stiffness);
+                }
             }
         }
-        own
     }
+}
 
-    /// Change of the stress of each point along a deformation made of those along the amplitudes.
-    fn changes(
-        &self,
-        stresses: &[Stress<D>; POINTS],
-        of: impl Fn(&[[f64; D]; AMPLITUDES]) -> [f64; D],
-    ) -> [[f64; D]; POINTS] {
-        std::array::from_fn(|point| stresses[point].along(&of(&self.along[point])))
+impl<const D: usize> Own<D> {
+    /// Of so many amplitudes.
+    fn new(count: usize) -> Self {
+        let (none, no_change) = ([[0.0; AMPLITUDES]; AMPLITUDES], [[[0.0; AMPLITUDES]; D]; POINTS]);
+        Self { along: no_change, across: no_change, stiffness: none, inverse: none, force: [0.0; AMPLITUDES], count }
     }
 
     /// Inverts the stiffness; says no where there is none.
@@ -526,6 +576,6 @@ impl<const D: usize> Own<D> {
 
     /// The inverse times the forces.
     fn step(&self) -> [f64; AMPLITUDES] {
-        std::array::from_fn(|n| work(&self.inverse[n], &self.force))
+        std::array::from_fn(|n| self.inverse[n].iter().zip(&self.force).map(|(by, force)| by * force).sum())
     }
 }

@@ -88,10 +88,21 @@ impl<const DIM: usize, const D: usize, const N: usize> WithSimd for Forces<'_, D
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        for (i, force) in self.force.iter_mut().enumerate() {
-            for (j, g) in self.g[..rows::<DIM, D>(i)].iter().enumerate() {
-                add_multiple(simd, self.p[component::<DIM>(i, j)] * self.volume, g, force);
-            }
+        add_forces_by(simd, self.g, (self.p, self.volume), self.force);
+    }
+}
+
+/// [`add_forces`] in vectors of the processor at hand.
+#[inline(always)]
+pub fn add_forces_by<S: Simd, const DIM: usize, const D: usize, const N: usize>(
+    simd: S,
+    g: &Rows<N>,
+    (p, volume): (&[f64; D], f64),
+    force: &mut Nodal<DIM, N>,
+) {
+    for (i, force) in force.iter_mut().enumerate() {
+        for (j, g) in g[..rows::<DIM, D>(i)].iter().enumerate() {
+            add_multiple(simd, p[component::<DIM>(i, j)] * volume, g, force);
         }
     }
 }

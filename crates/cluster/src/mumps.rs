@@ -110,14 +110,12 @@ impl Mumps {
         if self.workspace.capacity() > 0 {
             return;
         }
-        // Numbers in millions where they are many.
-        let foreseen = self.id.info[FORESEEN];
-        let foreseen = if foreseen < 0 { 1_000_000 * foreseen.unsigned_abs() as usize } else { foreseen as usize };
         let with_few = f64::from(100 + self.id.icntl[RESERVE - 1]) / f64::from(100 + FEW);
-        let millions = (foreseen as f64 * with_few / 1e6).ceil() as usize;
-        self.workspace.reserve_exact(1_000_000 * millions);
+        let count = (counted(self.id.info[FORESEEN]) * with_few).ceil();
+        let told = if count <= f64::from(c_int::MAX) { count } else { -(count / MILLION).ceil() };
+        self.workspace.reserve_exact(if told < 0.0 { -told * MILLION } else { told } as usize);
         frontal::ask_for_huge_pages(self.workspace.spare_capacity_mut());
-        (self.id.wk_user, self.id.lwk_user) = (self.workspace.as_mut_ptr(), -(millions as c_int));
+        (self.id.wk_user, self.id.lwk_user) = (self.workspace.as_mut_ptr(), told as c_int);
     }
 
     /// Solves for right-hand sides that stand one after another and are whole on the first rank, which then has the solutions in their place.
@@ -144,9 +142,8 @@ impl Mumps {
 
     /// What the factor took and a solution takes, in flops, a number of the factor that is moved counted as so many.
     pub fn work(&self, factor: f64, solution: f64) -> Work {
-        // Those foreseen, which are the same on any number of ranks; numbers in millions where they are many.
-        let entries = f64::from(self.id.infog[19]);
-        let entries = if entries < 0.0 { -1e6 * entries } else { entries };
+        // Those foreseen, which are the same on any number of ranks.
+        let entries = counted(self.id.infog[19]);
         Work { factorisation: self.id.rinfog[0] + factor * entries, solution: solution * entries }
     }
 }
@@ -158,6 +155,13 @@ impl Drop for Mumps {
             let _ = self.call(END);
         }
     }
+}
+
+/// Numbers are told in millions, below zero, where they are large.
+const MILLION: f64 = 1e6;
+
+fn counted(told: c_int) -> f64 {
+    if told < 0 { -MILLION * f64::from(told) } else { f64::from(told) }
 }
 
 fn told(code: c_int) -> String {

@@ -31,7 +31,7 @@ table! {
         if_free: IfFree = word().or("\"auto\""),
         /// Options of PETSc, which solves the linear systems of a program that was built with it (feature `cluster`), as of its
         /// command line: `"-ksp_type fgmres -pc_type hypre"`.
-        petsc: Option<Spot<String>> = text("options of PETSc").spot().computed("every matrix factorised by MUMPS"),
+        petsc: Option<Spot<String>> = text("options of PETSc").spot().computed("in a program built with PETSc every matrix factorised by MUMPS, else its own solver"),
         /// Gigabytes (10^9 bytes) of memory that the process may take; a run that needs more ends before it takes them and says
         /// what would fit.
         memory: Option<f64> = number("GB", Range::from_to(0.01, 1e6))

@@ -1,5 +1,5 @@
-//! Factors of one pattern after another behind one face: an analysis for either kind of values, the memory of one factor, and the
-//! same factor in single precision where it preconditions.
+//! Factors of one pattern after another behind one face: an analysis, the memory of one factor, and the same factor in single precision
+//! where it preconditions.
 
 use crate::change::LowRankChange;
 use crate::error::FrontalError;
@@ -12,8 +12,6 @@ use crate::symbolic::Symbolic;
 #[derive(Debug)]
 pub struct Direct {
     symbolic: Symbolic,
-    /// The same analysis for values of the other kind, where there were any.
-    other_kind: Option<Symbolic>,
     factor: Factor,
     /// The factor in single precision, which is enough to precondition.
     rounded: Rounded,
@@ -22,7 +20,7 @@ pub struct Direct {
 impl Direct {
     /// Takes an analysis and makes room for one factor.
     pub fn new(symbolic: Symbolic) -> Self {
-        Direct { factor: symbolic.new_factor(), symbolic, other_kind: None, rounded: Rounded::default() }
+        Direct { factor: symbolic.new_factor(), symbolic, rounded: Rounded::default() }
     }
 
     /// The analysis.
@@ -35,32 +33,8 @@ impl Direct {
         &self.factor
     }
 
-    /// Takes another analysis, and for its factor the memory of the one there was.
+    /// Takes another analysis, and for its factor the memory of the one there was. No factor is there then.
     pub fn replace(&mut self, symbolic: Symbolic) {
-        self.other_kind = None;
-        self.exchange(symbolic);
-    }
-
-    /// The analysis for values that are symmetric, or are not.
-    ///
-    /// # Errors
-    /// Those of [`Symbolic::for_values`].
-    pub fn analysis(&self, symmetric: bool) -> Result<Symbolic, FrontalError> {
-        match &self.other_kind {
-            Some(other) if other.prediction().symmetric == symmetric => Ok(other.clone()),
-            _ => self.symbolic.for_values(symmetric),
-        }
-    }
-
-    /// Takes the analysis of [`Direct::analysis`]; the one there was is kept. No factor is there then.
-    pub fn expect(&mut self, symbolic: Symbolic) {
-        if symbolic.prediction().symmetric != self.symbolic.prediction().symmetric {
-            self.other_kind = Some(self.symbolic.clone());
-            self.exchange(symbolic);
-        }
-    }
-
-    fn exchange(&mut self, symbolic: Symbolic) {
         self.rounded.forget();
         self.factor = symbolic.new_factor_in(self.factor.take_memory());
         self.symbolic = symbolic;

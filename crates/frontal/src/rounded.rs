@@ -3,9 +3,10 @@
 //! with rounded factors `M` that is `|b - A M^-1 b|`, of the order of the condition number times the round-off.
 
 use crate::diagnose;
-use crate::factor::Factor;
+use crate::factor::{Factor, LARGE};
 use crate::huge;
 use crate::solve::{Halves, Workspace};
+
 use crate::vector::{norm, subtract};
 
 /// Part of a right-hand side that rounding may spoil.
@@ -21,9 +22,12 @@ pub(crate) struct Rounded {
 }
 
 impl Rounded {
-    /// There are other factors now.
+    /// There will be other factors, whose making needs the memory if that is large.
     pub fn forget(&mut self) {
         (self.current, self.fit) = (false, false);
+        if size_of_val(&*self.entries) > LARGE {
+            self.entries = Vec::new();
+        }
     }
 
     /// Whether it is settled if the rounded factors of the factor there is serve.

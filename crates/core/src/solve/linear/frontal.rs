@@ -67,9 +67,9 @@ impl Frontal {
         if direct.symbolic().prediction().symmetric == symmetric {
             return Ok(());
         }
-        let symbolic = direct.analysis(symmetric).map_err(translate)?;
+        let symbolic = direct.symbolic().for_values(symmetric).map_err(translate)?;
         self.check_memory(&symbolic)?;
-        self.direct()?.expect(symbolic);
+        self.direct()?.replace(symbolic);
         Ok(())
     }
     fn direct(&mut self) -> Result<&mut Direct, LinearError> {

@@ -270,11 +270,15 @@ impl RateLaw for CamClay {
         Ok((finish(p, double_shear, scale), [self.hardened(pc, a), volume - a, shear + more]))
     }
 
-    /// Of the volume: the energy of the pressure above that of the beginning; of the shape `q^2/(6 G)`.
+    fn own_update(&self) -> Option<Update> {
+        Some(Update::ADAPTIVE)
+    }
+
     fn flow(&self) -> Flow {
         Flow::Dilatant
     }
 
+    /// Of the volume: the energy of the pressure above that of the beginning; of the shape `q^2/(6 G)`.
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {
         let (p, s) = (-stress.trace() / 3.0, stress.deviator());
         let shear = match self.shear {

@@ -14,7 +14,7 @@ use super::rate;
 use super::softening::{self, Changing};
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root};
+use crate::integrate::{System, Update, root};
 use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
@@ -222,6 +222,10 @@ impl RateLaw for DruckerPrager {
     fn flow(&self) -> Flow {
         // No dilatancy goes beyond the friction.
         if self.strength.first()[0] == 0.0 { Flow::Isochoric } else { Flow::Dilatant }
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        self.strength.changes().then_some(Update::ADAPTIVE)
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 2]) -> f64 {

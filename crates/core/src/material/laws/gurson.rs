@@ -334,10 +334,6 @@ impl RateLaw for Gurson {
         material::Flow::Isochoric
     }
 
-    fn own_update(&self) -> Option<Update> {
-        Some(Update::ADAPTIVE)
-    }
-
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {
         self.elastic.energy(stress)
     }

@@ -93,6 +93,28 @@ fn creep_under_a_load_is_the_integral_of_its_rate() {
     assert!(((at(11.0) - at(1.0)) / 10.0 - 1.0).abs() < 1e-3, "{}", at(11.0) - at(1.0));
 }
 
+/// A bar under a true load that grows as it thins: `-m ln(1 - r t/m)` (theory.md, Norton and Hoff), here at a strain of .23 against 2000 increments.
+#[test]
+fn a_bar_that_thins_creeps_faster() {
+    let deck = "version = 1
+        space = \"axisymmetric\"
+        mesh.part.t.rectangle = { from = [0.0, 0.0], to = [1.0, 2.0], cells = [1, 1], cell = \"quad8\" }
+        material.m.norton_hoff = { young = 1e5, poisson = 0.3, consistency = 100.0, sensitivity = 0.25 }
+        body.t.material = \"m\"
+        [[step]]
+        duration = 1e-6
+        symmetry = [\"t.left\", \"t.bottom\"]
+        traction.\"t.top\" = { y = 60.0 }
+        [[step]]
+        duration = 18.0422";
+    let keep = run(&model(deck, &[]));
+    let top = keep.states.last().unwrap().u.iter().fold(0.0, |most: f64, u| most.max(*u));
+    let strain = (top / 2.0).ln_1p();
+    eprintln!("{strain} in {} increments", keep.states.len());
+    assert!((strain / 0.2304 - 1.0).abs() < 0.02, "{strain}");
+    assert!(keep.states.len() < 100, "{} increments", keep.states.len());
+}
+
 /// The strain of a cycle, `ln(((C/g)^2 - (s_min + k)^2)/((C/g)^2 - (s_max - k)^2))/g` (Lemaitre and Chaboche 1990).
 #[test]
 fn a_bar_ratchets_as_its_closed_form() {

@@ -224,8 +224,8 @@ fn what_has_nothing_to_integrate_is_refused() {
 #[test]
 fn what_a_law_takes_by_itself_keeps_a_hundredth() {
     let mut worse = Vec::new();
-    // Ten increments to a hundredth, and to a tenth, where the laws of Gurson are off by more than one.
-    for (strain, most) in [(1e-3, 1e-2), (1e-2, 2e-2)] {
+    // Ten increments to a hundredth, and to a tenth.
+    for strain in [1e-3, 1e-2] {
         for sample in samples().iter().filter(|sample| claim(sample.law) != Claim::Closed) {
             let material = sample.material.as_ref();
             let end = |update: Option<Update>| {
@@ -249,7 +249,7 @@ fn what_a_law_takes_by_itself_keeps_a_hundredth() {
                 let e = stress - exact;
                 (e.contract(e) / exact.contract(exact)).sqrt()
             };
-            if off(own) >= most {
+            if off(own) >= 1e-2 {
                 worse.push(format!("{} at {strain}: {:.1e}, one step {:.1e}", sample.name, off(own), off(one)));
             }
         }

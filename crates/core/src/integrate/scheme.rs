@@ -77,6 +77,9 @@ impl Update {
     /// allows.
     pub const ADAPTIVE: Self = Self { scheme: Scheme::Adaptive(1e-3), substeps: 1, tolerance: None };
 
+    /// What a law takes by itself of which that holds, too, and that often has no answer, where halves would cost much.
+    pub const TWO_STEP: Self = Self { scheme: Scheme::TwoStep, substeps: 1, tolerance: None };
+
     /// The state at the end of an increment that begins with `start`; `step(state, h, end)` takes one implicit step over
     /// the fraction `h` of the increment to its fraction `end`, and with `h = 0` returns to the admissible states.
     ///

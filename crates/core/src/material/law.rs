@@ -150,6 +150,8 @@ pub struct Creep {
     pub rate: f64,
     /// and its derivative by the stress.
     pub slope: f64,
+    /// and what a unit of equivalent strain that has crept lowers it by.
+    pub hardening: f64,
     /// Stress that a unit of equivalent strain relaxes, `3 G`.
     pub stiffness: f64,
 }
@@ -160,6 +162,14 @@ impl Creep {
     /// 1974), and makes a stress by the tangent of the law.
     pub fn unevenness(&self, end: &Self, dt: f64) -> f64 {
         0.5 * dt * (end.rate - self.rate).abs() / (1.0 / end.stiffness + dt * end.slope)
+    }
+
+    /// The change of the power of creep over an increment that ends in `end`, and the larger power at its ends. Where a solid hardens,
+    /// what it crept too far lowers its rate.
+    pub fn change_of_power(&self, end: &Self, dt: f64) -> [f64; 2] {
+        let stress = self.stress.max(end.stress);
+        let change = (end.rate - self.rate).abs() / (1.0 + dt * end.hardening);
+        [change, self.rate.max(end.rate)].map(|rate| stress * rate)
     }
 }
 

@@ -11,7 +11,7 @@ use super::{BodyOptions, Choice, CylinderAxes, Formulation, Heat, InitialStress,
 use crate::material::{Material, Placement};
 use crate::mesh::cells::{Cell, Quadrature};
 use crate::mesh::{Mesh, Space};
-use crate::system::{Attempt, Dofs, History, Instant, State, Term};
+use crate::system::{Attempt, Dofs, History, Instant, State, Term, Unevenness};
 use crate::{Error, Failure};
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -316,8 +316,8 @@ impl Term for Body {
         Ok(history)
     }
 
-    fn unevenness(&self, old: &History, new: &History, dt: f64) -> f64 {
-        let mut largest = [0.0_f64; 2];
+    fn unevenness(&self, old: &History, new: &History, dt: f64) -> Unevenness {
+        let (mut largest, mut power) = ([0.0_f64; 2], [0.0; 2]);
         for slot in 0..self.cells.len() {
             let states =
                 old.slot(slot).chunks_exact(self.point_len()).zip(new.slot(slot).chunks_exact(self.point_len()));
@@ -325,12 +325,15 @@ impl Term for Body {
                 let state = ..self.material.state_len();
                 let (Some(from), Some(to)) = (self.material.creep(&old[state]), self.material.creep(&new[state]))
                 else {
-                    return 0.0;
+                    return Unevenness::default();
                 };
                 largest = [largest[0].max(from.unevenness(&to, dt)), largest[1].max(from.stress).max(to.stress)];
+                let point = from.change_of_power(&to, dt);
+                power = [power[0] + point[0], power[1] + point[1]];
             }
         }
-        if largest[0] > 0.0 { largest[0] / largest[1] } else { 0.0 }
+        let [stress, power] = [largest, power].map(|[part, of]| if part > 0.0 { part / of } else { 0.0 });
+        Unevenness { stress, power }
     }
 
     fn at_start(&self, forces: &mut [f64]) -> Result<f64, Failure> {

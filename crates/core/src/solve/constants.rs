@@ -220,6 +220,8 @@ pub mod sizes {
     /// Part of the stress of a body by which creep may make it wrong over an increment, in which it is taken to go on evenly.
     /// Relaxation at a fixed strain, by the fifth power, is then within a hundredth of its closed form, and increments grow by a half each.
     pub const UNEVEN: f64 = 0.02;
+    /// Part of all that the terms have taken up from which on work of creep under loads counts.
+    pub const PAST: f64 = 0.01;
     /// Part of that for which a size is chosen.
     pub const AIM: f64 = 0.9;
     /// Part of the first increment of a step below which no size counts as usual.

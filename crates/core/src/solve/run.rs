@@ -1,7 +1,7 @@
 //! Steps and increments: the loop around the attempts.
 
 use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
-use super::constants::sizes::{AIM, UNEVEN};
+use super::constants::sizes::{AIM, PAST, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{Converged, Memory, Newton, SolveError};
 use super::observer::{AttemptRecord, Observer};
@@ -12,7 +12,7 @@ use super::rigid::free_motions;
 use super::schedule::Step;
 use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability};
-use crate::system::{Caution, Energies, Interpenetration, State, Workspace};
+use crate::system::{Caution, Energies, Interpenetration, State, Unevenness, Workspace};
 use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
 
@@ -252,11 +252,24 @@ impl<'a> Run<'a> {
         Err(self.give_up(step, wanted, "too many attempts at one increment"))
     }
 
-    /// How wrong the stress of a body may be at most, as a part of it, because it crept unevenly over an increment, and its name.
+    /// How wrong the stress of a body may be at most, as a part of it, or the strain that loads make, because it crept unevenly over an
+    /// increment, and its name.
+    ///
+    /// The strain is wrong so far as loads, and not prescribed motions, do the work that creep dissipates. It may be wrong by a part of
+    /// what the increment adds, or by a small part of all that the terms have taken up.
     fn unevenness(&self, step: &Step, converged: &Converged, dt: f64) -> (f64, String) {
-        let lanes = self.state.histories.iter().zip(&converged.evaluation.histories);
+        let Converged { evaluation, u, .. } = converged;
+        let lanes = self.state.histories.iter().zip(&evaluation.histories).zip(&evaluation.energies);
         let terms = self.problem.terms.iter().zip(lanes).enumerate().filter(|(number, _)| !step.idle.contains(number));
-        let all = terms.map(|(_, (term, (old, new)))| (term.unevenness(old, new, dt), term.name()));
+        let moved = u.iter().zip(&self.state.u).zip(self.state.load.iter().zip(&evaluation.load));
+        let work: f64 = moved.map(|((now, before), (f0, f1))| 0.5 * (f0 + f1) * (now - before)).sum();
+        let all = terms.map(|(_, (term, ((old, new), energies)))| {
+            let Unevenness { stress, power } = term.unevenness(old, new, dt);
+            let crept = energies.dissipated.min(work).max(0.0);
+            let strain =
+                if crept > 0.0 { power * crept / (work + PAST * exchanged(&self.state)[0].abs()) } else { 0.0 };
+            (stress.max(strain), term.name())
+        });
         let (most, name) = all.fold((0.0, ""), |most, one| if one.0 > most.0 { one } else { most });
         (most, name.to_owned())
     }

@@ -40,5 +40,5 @@ pub use pattern::{Couplings, Csr, Reduced};
 pub use preconditioner::{Factorised, Near, Preconditioner};
 pub use shares::{Communicator, Shares, apart, said};
 pub use state::{Caution, Energies, History, Interpenetration, Signs, Softest, State};
-pub use term::{Attempt, Branch, Instant, Local, Origin, Role, Stencil, Stencils, Term};
+pub use term::{Attempt, Branch, Instant, Local, Origin, Role, Stencil, Stencils, Term, Unevenness};
 pub use whole::Whole;

@@ -151,6 +151,15 @@ impl Local {
     }
 }
 
+/// How unevenly a term crept over an increment over which its strain is taken to grow evenly (Zienkiewicz and Cormeau 1974).
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Unevenness {
+    /// How wrong the largest stress may be, as a part of it, where the strain is prescribed.
+    pub stress: f64,
+    /// How much the power of creep changed, as a part of it: where the stress is prescribed the strain is wrong by half of that.
+    pub power: f64,
+}
+
 /// A term of equilibrium: what of it lasts through the run.
 pub trait Term: Send + Sync {
     /// The user's name for it.
@@ -200,9 +209,9 @@ pub trait Term: Send + Sync {
     fn describe_motions(&self, _motions: &[Vec<f64>]) -> Vec<String> {
         Vec::new()
     }
-    /// How wrong the largest stress may be, as a part of it, because flow went unevenly from one history to the other over `dt`.
-    fn unevenness(&self, _old: &History, _new: &History, _dt: f64) -> f64 {
-        0.0
+    /// How unevenly it crept from one history to the other over `dt`.
+    fn unevenness(&self, _old: &History, _new: &History, _dt: f64) -> Unevenness {
+        Unevenness::default()
     }
     /// Words for a branch in tables; empty when the term has only one.
     fn branches(&self) -> &'static [&'static str] {

@@ -334,6 +334,10 @@ impl RateLaw for Gurson {
         material::Flow::Isochoric
     }
 
+    fn own_update(&self) -> Option<Update> {
+        Some(Update::TWO_STEP)
+    }
+
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {
         self.elastic.energy(stress)
     }

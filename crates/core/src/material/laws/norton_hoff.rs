@@ -100,7 +100,7 @@ impl RateLaw for NortonHoff {
         let (n, stress) = (self.exponent, Invariants::of(stress).q);
         let rate = (stress / self.unit_stress).powf(n);
         let slope = n * (stress / self.unit_stress).powf(n - 1.0) / self.unit_stress;
-        Some(Creep { stress, rate, slope, stiffness: 3.0 * self.elastic.shear })
+        Some(Creep { stress, rate, slope, hardening: 0.0, stiffness: 3.0 * self.elastic.shear })
     }
 
     fn own_update(&self) -> Option<Update> {

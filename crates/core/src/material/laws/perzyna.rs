@@ -118,7 +118,14 @@ impl RateLaw for Perzyna {
         let yield_stress = p * self.hardening + self.first;
         let over = (stress / yield_stress - 1.0).max(0.0);
         let slope = if over > 0.0 { self.fluidity * n * over.powf(n - 1.0) / yield_stress } else { 0.0 };
-        Some(Creep { stress, rate: self.fluidity * over.powf(n), slope, stiffness: 3.0 * self.elastic.shear })
+        let hardening = slope * self.hardening * stress / yield_stress;
+        Some(Creep {
+            stress,
+            rate: self.fluidity * over.powf(n),
+            slope,
+            hardening,
+            stiffness: 3.0 * self.elastic.shear,
+        })
     }
 
     fn own_update(&self) -> Option<Update> {

@@ -35,8 +35,8 @@ impl PackedPattern {
 
     /// The pattern of so many rows and entries; none where these numbers are none of a pattern whose columns ascend in each row.
     pub fn unpacked(&self, rows: usize, entries: usize) -> Option<Csr> {
-        let (mut words, mut starts, mut columns) = (self.0.iter().map(|word| *word as usize), vec![0], Vec::new());
-        let mut last = 0..0;
+        let mut words = self.0.iter().map(|word| *word as usize);
+        let (mut starts, mut columns, mut last) = (vec![0], Vec::with_capacity(entries), 0..0);
         while let Some(ranges) = words.next() {
             let (begin, alike) = (columns.len(), ranges == ALIKE as usize);
             if alike {

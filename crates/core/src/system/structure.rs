@@ -4,7 +4,8 @@
 //! such as the two sides of a contact, is added to the few rows that it touches.
 
 use super::places::Places;
-use super::{Assembly, Constraints, Couplings, Csr, Stencils};
+use super::{Assembly, Constraints, Couplings, Csr, PackedPattern, Stencils};
+use std::mem::take;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -12,12 +13,13 @@ use std::sync::Arc;
 #[derive(Debug, Default)]
 pub struct Structure {
     constraints: Option<Constraints>,
-    /// Groups of the terms whose stencils never change, and their pattern.
+    /// Groups of the terms whose stencils never change, and their pattern, of which the starts of the rows are kept as they are.
     fixed: Couplings,
-    base: Csr,
-    /// Groups of the other terms, and the pattern of all; that of the former where there are none.
+    base: PackedPattern,
+    starts: Arc<Vec<usize>>,
+    /// Groups of the other terms, and the pattern of all.
     moving: Couplings,
-    whole: Option<Csr>,
+    pattern: Csr,
     /// Places of the stencils that never change, term by term.
     places: Vec<Option<Places>>,
     analysis: usize,
@@ -26,7 +28,7 @@ pub struct Structure {
 impl Structure {
     /// The pattern.
     pub fn pattern(&self) -> &Csr {
-        self.whole.as_ref().unwrap_or(&self.base)
+        &self.pattern
     }
     /// Changes whenever the pattern changes.
     pub fn analysis(&self) -> usize {
@@ -51,6 +53,7 @@ impl Structure {
         } else if moving != self.moving {
             self.moving = moving;
             self.add_moving(assembly.constraints);
+            self.analysis += 1;
         }
     }
 
@@ -59,40 +62,43 @@ impl Structure {
         let attempts = assembly.attempts.iter().zip(stencils);
         attempts.filter(|(attempt, _)| !attempt.is_fixed()).for_each(|(_, s)| self.moving.extend(s));
         self.add_moving(assembly.constraints);
+        self.analysis += 1;
     }
 
     fn rebuild(&mut self, assembly: &Assembly, stencils: &[Stencils], own: Range<usize>) {
         let constraints = assembly.constraints;
         self.constraints = Some(constraints.clone());
-        (self.base, self.whole) = (Csr::build(constraints, &self.fixed, own.clone()), None);
+        let base = Csr::build(constraints, &self.fixed, own.clone());
+        (self.base, self.starts) = (PackedPattern::of(&base, 0..base.rows()), base.starts.clone());
         let attempts = assembly.attempts.iter().zip(stencils);
         let places = attempts.map(|(attempt, s)| attempt.is_fixed().then(|| Places::new(constraints, s, own.clone())));
         self.places = places.collect();
-        self.places.iter_mut().flatten().for_each(|places| places.find(&self.base, |_| true));
-        self.add_moving(constraints);
-    }
-
-    /// Adds the moving couplings to the pattern of the fixed ones, and finds places anew in the rows that it changes.
-    fn add_moving(&mut self, constraints: &Constraints) {
-        let old = self.whole.take();
-        let was_longer = self.longer(old.as_ref());
+        self.places.iter_mut().flatten().for_each(|places| places.find(&base, |_| true));
+        self.pattern = base;
         if !self.moving.is_empty() {
-            // The solver may still hold the old one.
-            let memory = old.and_then(|old| Arc::into_inner(old.columns)).unwrap_or_default();
-            self.whole = Some(self.base.with(constraints, &self.moving, memory));
-        }
-        let is_longer = self.longer(self.whole.as_ref());
-        let pattern = self.whole.as_ref().unwrap_or(&self.base);
-        for places in self.places.iter_mut().flatten() {
-            places.find(pattern, |row| was_longer[row] || is_longer[row]);
+            self.add_moving(constraints);
         }
         self.analysis += 1;
     }
 
+    /// Adds the moving couplings to the pattern of the fixed ones, and finds places anew in the rows that it changes.
+    fn add_moving(&mut self, constraints: &Constraints) {
+        let was_longer = self.longer();
+        let (rows, entries) = (self.starts.len() - 1, self.starts.last().copied().unwrap_or(0));
+        let base = self.base.unpacked(rows, entries).expect("a pattern packed here");
+        // The solver may still hold the old one.
+        let memory = Arc::into_inner(take(&mut self.pattern).columns).unwrap_or_default();
+        self.pattern = if self.moving.is_empty() { base } else { base.with(constraints, &self.moving, memory) };
+        let is_longer = self.longer();
+        for places in self.places.iter_mut().flatten() {
+            places.find(&self.pattern, |row| was_longer[row] || is_longer[row]);
+        }
+    }
+
     /// Which rows have more entries than those of the fixed couplings.
-    fn longer(&self, whole: Option<&Csr>) -> Vec<bool> {
-        let is_longer = |row: usize| whole.is_some_and(|whole| whole.row(row).len() > self.base.row(row).len());
-        (0..self.base.rows()).map(is_longer).collect()
+    fn longer(&self) -> Vec<bool> {
+        let rows = self.starts.windows(2).enumerate();
+        rows.map(|(row, starts)| self.pattern.row(row).len() > starts[1] - starts[0]).collect()
     }
 }
 

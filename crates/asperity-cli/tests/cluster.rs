@@ -358,3 +358,19 @@ fn a_rank_without_memory_ends_all() {
     assert!(trial.state(&checkpoint).increment > 0);
     eprintln!("{size} kB of addresses, {:?}: {}", begun.elapsed(), errors[0]);
 }
+
+/// What a bound on memory refuses, MUMPS is not begun with.
+#[test]
+fn a_bound_on_memory_is_kept() {
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let trial = Trial::new(CUBE);
+    for ranks in [1, 2] {
+        let output = trial
+            .command(ranks, &["run", "deck.toml", "--out", "out", "--set", "solver.memory=0.02"])
+            .output()
+            .unwrap();
+        let (code, errors) = end(&output);
+        assert_eq!((code, errors.len()), (Some(2), 1), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(errors[0].contains("what `solver.memory` allows"), "{errors:?}");
+    }
+}

@@ -379,7 +379,9 @@ impl<'a> Run<'a> {
         state.leap = leap([expected, driven, moved], self.problem.size);
         if !record.relaxed {
             let served = step.served(dt, wanted, state.step_time - dt);
-            state.next_dt = state.caution.hold(served, step.after(served, wanted, record.first_solutions()));
+            state.next_dt = state
+                .caution
+                .hold(served, step.after(served, wanted, record.first_solutions(), moved / self.problem.size));
             state.caution.proven = served;
         } else {
             // What the jump did must not be carried on, nor its increment be the measure of the next.

@@ -1,6 +1,6 @@
 //! Steps, what is prescribed in them, and the size of increments.
 
-use super::constants::sizes::{AIM, EASY, GROWTH, MOST_PATIENCE, PATIENCE, UNEVEN, USUAL};
+use super::constants::sizes::{AIM, EASY, GROWTH, MOST_PATIENCE, PATIENCE, SHORT, UNEVEN, USUAL};
 use crate::amplitude::Amplitude;
 use crate::system::{Caution, Constraints};
 
@@ -79,6 +79,8 @@ impl Default for Increments {
 pub struct ArcLength {
     /// Where the step ends; where the load factor is one if nothing is said.
     pub until: Option<Until>,
+    /// Whether increments become longer than the largest of the step where they move little.
+    pub grows: bool,
 }
 
 /// The displacement at which a step ends.
@@ -154,11 +156,12 @@ impl Step {
     /// Size of the increment to try when the controller wants `wanted` and `done` of the step is behind: the rest of
     /// the step, or to where an amplitude bends, when that is near, and halves of the rest rather than a sliver at the end.
     pub fn next(&self, wanted: f64, done: f64) -> f64 {
-        let wanted = wanted.min(self.increments.largest * self.duration);
-        if self.arc_length.is_some() {
+        let largest = self.increments.largest * self.duration;
+        if let Some(arc) = &self.arc_length {
             // How long the path is does not show before its end.
-            return wanted;
+            return if arc.grows { wanted } else { wanted.min(largest) };
         }
+        let wanted = wanted.min(largest);
         let rest = self.bend(wanted, done).map_or(self.duration, |part| part * self.duration) - done;
         if rest <= wanted * (1.0 + 1e-6) {
             rest
@@ -185,9 +188,10 @@ impl Step {
         if self.bend(wanted, done).is_some() { dt.max(wanted) } else { dt }
     }
 
-    /// What the controller wants after an increment of size `dt` that took `iterations`.
-    pub fn after(&self, dt: f64, wanted: f64, iterations: usize) -> f64 {
-        let largest = self.increments.largest * self.duration;
+    /// What the controller wants after an increment of size `dt` that took `iterations` and moved some node by this part of the model's size.
+    pub fn after(&self, dt: f64, wanted: f64, iterations: usize, moved: f64) -> f64 {
+        let grows = self.arc_length.as_ref().is_some_and(|arc| arc.grows) && moved > 0.0;
+        let largest = (self.increments.largest * self.duration).max(if grows { dt * SHORT / moved } else { 0.0 });
         if iterations > EASY { dt.min(wanted) } else { (GROWTH * dt.max(wanted.min(dt * GROWTH))).min(largest) }
     }
 }

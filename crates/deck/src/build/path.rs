@@ -21,6 +21,7 @@ impl Builder<'_> {
             let dofs = self.nodes(&until.group.text).iter().map(|&node| self.site.dofs.node(node) + axis).collect();
             Some(Until { dofs, value })
         });
-        Some(ArcLength { until })
+        let grows = step.increments.count.is_none() && step.increments.largest.is_none();
+        Some(ArcLength { until, grows })
     }
 }

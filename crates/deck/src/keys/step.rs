@@ -77,7 +77,8 @@ table! {
         /// The first.
         first: Option<Spot<f64>> = fraction().spot().computed("0.05"),
         /// The largest.
-        largest: Option<Spot<f64>> = fraction().spot().computed("0.1"),
+        largest: Option<Spot<f64>> = fraction().spot()
+            .computed("0.1; along a path longer while no node moves by more than a 400th of the model's size in one"),
         /// The smallest; a step that needs a smaller one fails.
         smallest: Spot<f64> = number(unit::NONE, Range::from_to(SMALLEST, 1.0)).spot().or("1e-6"),
         /// The most increments of the step.

@@ -73,13 +73,16 @@ impl Problem {
         Ok(Demand { unknowns, entries, factorisation, symmetric, bytes, symmetric_bytes, dimension })
     }
 
-    /// Whether the first step fits into the memory there is; of small models nothing is asked, nor of what an engine from
-    /// outside takes.
+    /// Whether the first step fits into the memory there is; of small models nothing is asked, and of what an engine from outside takes on
+    /// each rank only where its bound is said.
     ///
     /// # Errors
     /// [`Error::Input`] with the need and what would fit.
     pub fn check_memory(&self, state: &State) -> Result<(), Error> {
-        let Some(room) = room(self.newton.memory).filter(|_| !engine::provided()) else { return Ok(()) };
+        let Some(room) = room(self.newton.memory) else { return Ok(()) };
+        if engine::provided() {
+            return if self.newton.memory.is_some() { self.demand(state)?.check_ranks(&room) } else { Ok(()) };
+        }
         if PLENTY * self.dofs.count() as u64 <= room.left() { Ok(()) } else { self.demand(state)?.check(&room) }
     }
 
@@ -148,6 +151,13 @@ impl Demand {
                 ranks::MULTIGRID_FIRST_PER_UNKNOWN * unknowns,
             ),
         }
+    }
+
+    /// Whether the ranks there are fit, each by itself, with the one of their engines that takes less.
+    fn check_ranks(&self, room: &Room) -> Result<(), Error> {
+        let count = engine::others().map_or(1, |with| with.size());
+        let of_ranks = self.of_ranks(NonZeroUsize::new(count).unwrap_or(NonZeroUsize::MIN));
+        self.fits(of_ranks.direct[0].min(of_ranks.multigrid[0]).saturating_sub(room.taken), room)
     }
 
     fn fits(&self, bytes: u64, room: &Room) -> Result<(), Error> {

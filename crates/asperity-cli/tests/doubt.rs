@@ -434,3 +434,38 @@ motion.punch.y = -0.95
     let run = Run::of(deck, &[]);
     assert_eq!(run.code(), 0, "{}", run.notes());
 }
+
+/// A strip bent to eight times the curvature at which it yields: its plastic moment is off where one cell of second degree lies through it
+/// (three Gauss points bear 0.861 of it) or cells of first degree are long, which is told; two cells of second degree are right.
+#[test]
+fn plastic_bending_with_too_few_cells_is_told() {
+    let deck = |cells: &str, law: &str| {
+        format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.a.rectangle = {{ from = [0.0, 0.0], to = [20.0, 2.0], {cells} }}
+            material.m.{law}
+            body.a.material = \"m\"
+            rigid.end = {{ group = \"a.right\", reference = [20.0, 1.0] }}
+            output.pictures = false
+            [[step]]
+            symmetry = [\"a.left\"]
+            displacement.\"a.bottom_left\" = {{ y = 0.0 }}
+            load.end = {{ x = 0.0, y = 0.0 }}
+            motion.end = {{ rotation = 9.167 }}"
+        )
+    };
+    let told = |cells: &str, law: &str| {
+        Run::of(&deck(cells, law), &[]).notes().contains("where it bends, and flows all through")
+    };
+    let steel = "von_mises = { young = 200e3, poisson = 0.3, yield_stress = 200.0 }";
+    for (cells, expected) in [
+        ("cells = [10, 1], cell = \"quad8\"", true),
+        ("cells = [10, 2], cell = \"quad8\"", false),
+        ("cells = [10, 1], cell = \"tri6\"", false),
+        ("cells = [10, 2], cell = \"quad4\"", true),
+    ] {
+        assert_eq!(told(cells, steel), expected, "{cells}");
+    }
+    assert!(!told("cells = [10, 1], cell = \"quad8\"", "elastic = { young = 200e3, poisson = 0.3 }"));
+}

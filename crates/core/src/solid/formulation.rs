@@ -7,7 +7,7 @@
 //! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft. One to
 //! three tetrahedra of second degree through a body share a linear change of volume with others there.
 
-use super::slenderness::{STIFF, Slenderness, TWO_POINTS};
+use super::slenderness::{PLASTIC, STIFF, Slenderness, TWO_POINTS};
 use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
@@ -84,6 +84,8 @@ pub struct Choice {
     pub locks: bool,
     /// By what part they are too stiff in bending, or with a minus too soft, where that is much.
     pub stiff: Option<f64>,
+    /// By what part they are too stiff in bending where their solid flows all through, or with a minus too weak, where that is much.
+    plastic: Option<f64>,
     /// Whether they are too soft in bending.
     pub soft: bool,
     /// Whether, as tetrahedra of second degree, a few of them share a linear change of volume.
@@ -143,6 +145,7 @@ impl Choice {
             reason,
             locks,
             stiff: None,
+            plastic: None,
             soft: false,
             joined: false,
             layers,
@@ -163,11 +166,19 @@ impl Choice {
 
     /// The same with what follows from the body's thickness, which is asked for where it matters.
     pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
+        let (body, bonded) = (body(), self.layers.is_some());
         if self.integration == Integration::Reduced {
             self.layers = None;
-            return self;
+        } else {
+            self = self.with_formulation(&body, bonded, options);
         }
-        let (body, bonded) = (body(), self.layers.is_some());
+        let plastic = body.plastic(self.kind, self.formulation, self.integration);
+        let told = bonded || self.soft || self.stiff.is_some();
+        self.plastic = Some(plastic).filter(|part| self.flows && !told && part.abs() > PLASTIC);
+        self
+    }
+
+    fn with_formulation(mut self, body: &Slenderness, bonded: bool, options: &BodyOptions) -> Self {
         self.layers = self.layers.map(f64::round).filter(|layers| *layers < FEW - (self.kind.degree - 1) as f64);
         let (auto, stiff) = (options.formulation == Formulation::Auto, body.stiff(self.kind, self.formulation));
         let free = auto || options.formulation == Formulation::Standard;
@@ -202,6 +213,23 @@ impl Choice {
         }
         self.stiff = self.stiff.map(|part| part + body.stretched(self.kind)).filter(|part| part.abs() > STIFF);
         self
+    }
+
+    /// What is to be known of a body that bends, and flows all through.
+    pub fn plastic_bending(&self) -> Option<String> {
+        let (name, part) = (self.kind.name, 100.0 * self.plastic?.abs());
+        let why = match (self.kind.degree, self.integration) {
+            (1, _) => format!(
+                "up to {part:.0} % too stiff: cells as long as that bend with shear there; shorter ones, and two of second degree through it, do not"
+            ),
+            (_, Integration::Reduced) => format!(
+                "up to {part:.0} % too stiff: one {name} lies through it, with two integration points; two cells are right"
+            ),
+            _ => format!(
+                "up to {part:.0} % too weak: one {name} lies through it, with three integration points; two cells are right"
+            ),
+        };
+        Some(format!("where it bends, and flows all through, its {name} cells are {why}"))
     }
 
     /// What is to be known where the cells lock.

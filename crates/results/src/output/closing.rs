@@ -16,18 +16,21 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     let Account { certificate, limits, summary, .. } = account;
     cost(summary, run, seconds);
     summary.notes.extend(facets(model, &run.state));
-    summary.notes.extend(model.bodies.iter().flat_map(|(body, _)| locking(body, &run.state.u)));
+    summary.notes.extend(model.bodies.iter().flat_map(|(body, term)| locking(body, &run.state, *term)));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
     summary.notes.extend(rests(certificate, model.space));
 }
 
-/// Which cells of a body stay too stiff, and what helps; of one that at unknowns `u` stretches or shears evenly none.
-fn locking(body: &Body, u: &[f64]) -> Vec<String> {
-    if !body.bends(u) {
+/// Which cells of a body, a term, stay too stiff, and what helps; of one that stretches or shears evenly none. What dissipated less than
+/// it stores has not flowed all through.
+fn locking(body: &Body, state: &State, term: usize) -> Vec<String> {
+    if !body.bends(&state.u) {
         return Vec::new();
     }
-    let advice = body.choices().iter().flat_map(Choice::advice);
+    let (energies, choices) = (state.energies[term], body.choices().iter());
+    let flowed = choices.clone().filter(|_| energies.dissipated > energies.stored).filter_map(Choice::plastic_bending);
+    let advice = choices.flat_map(Choice::advice).chain(flowed);
     advice.map(|advice| format!("body '{}': {advice}", body.name())).collect()
 }
 

@@ -265,6 +265,32 @@ fn a_column_bends_far_in_few_increments() {
     assert!(keep.states.len() < 200, "{} increments", keep.states.len());
 }
 
+/// The first increment of the load, .05 by default, lies beyond that at the limit point of a shallow arch, .0441, and is taken shorter.
+#[test]
+fn the_first_increment_does_not_pass_a_limit_point() {
+    let deck = "version = 1
+        space = \"plane-strain\"
+        mesh.part.a.annulus = { from = [100.0, 75.0], to = [101.0, 105.0], cells = [2, 40], cell = \"quad8\" }
+        material.m.elastic = { young = 1000.0, poisson = 0.0 }
+        body.a.material = \"m\"
+        group.crown = { of = \"a.outer\", x = [-0.1, 0.1] }
+        [[step]]
+        control = \"arc-length\"
+        until = { group = \"crown\", y = -6.0 }
+        displacement.\"a.start\" = { x = 0.0, y = 0.0 }
+        displacement.\"a.end\" = { x = 0.0, y = 0.0 }
+        pressure.\"a.outer\".value = 0.5";
+    let peak = |sets: &[&str]| {
+        let keep = run(&model(deck, sets));
+        let factors: Vec<f64> = keep.states.iter().map(|state| state.factor).collect();
+        let falls = factors.windows(2).position(|two| two[1] < two[0]).expect("a limit point");
+        (factors[falls], factors.len())
+    };
+    let ((peak, count), (fine, _)) = (peak(&[]), peak(&["step.1.increments.first=0.001"]));
+    eprintln!("{peak} in {count} increments, {fine}");
+    assert!((peak / fine - 1.0).abs() < 0.03, "{peak} instead of {fine}");
+}
+
 #[test]
 fn a_load_stays_where_its_path_ended() {
     let deck = format!(

@@ -129,6 +129,9 @@ pub mod path {
     pub const AHEAD: f64 = -0.5;
     /// Shortest part of a step that is taken where the whole cannot be evaluated.
     pub const SHORTEST: f64 = 0.01;
+    /// Part of the size of the model by which the first increment, one of the load, may move a node where it takes many iterations: it
+    /// may else have gone past the limit points of a shallow arch.
+    pub const ASTRAY: f64 = 0.01;
 }
 
 /// The first guess.

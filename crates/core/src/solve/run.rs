@@ -1,7 +1,8 @@
 //! Steps and increments: the loop around the attempts.
 
 use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
-use super::constants::sizes::{AIM, PAST, UNEVEN};
+use super::constants::path::ASTRAY;
+use super::constants::sizes::{AIM, EASY, PAST, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{Converged, Memory, Newton, SolveError};
 use super::observer::{AttemptRecord, Observer};
@@ -177,6 +178,12 @@ impl<'a> Run<'a> {
             });
             match result {
                 Ok((found, mut converged)) => {
+                    if self.leaves_path(step, &converged, record.solutions()) && step.may_halve(dt) && !relaxing {
+                        record.failure = Some("the first increment of a path leads far from where it began".into());
+                        observer.attempt(&record);
+                        wanted = 0.5 * dt;
+                        continue;
+                    }
                     let (unevenness, body) = self.unevenness(step, &converged, dt);
                     let even = step.even(dt, unevenness);
                     if let Some(size) = even.filter(|size| unevenness > UNEVEN && *size < AIM * dt && !relaxing) {
@@ -250,6 +257,17 @@ impl<'a> Run<'a> {
             }
         }
         Err(self.give_up(step, wanted, "too many attempts at one increment"))
+    }
+
+    /// Whether the first increment of a path, which is one of the load, may have gone past a limit point: it took many iterations and
+    /// moved a node far.
+    fn leaves_path(&self, step: &Step, converged: &Converged, iterations: usize) -> bool {
+        if step.arc_length.is_none() || self.state.arc > 0.0 || iterations <= EASY {
+            return false;
+        }
+        let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
+        let moved = converged.u[..nodes].iter().zip(&self.state.u).map(|(now, before)| (now - before).abs());
+        moved.fold(0.0, f64::max) > ASTRAY * self.problem.size
     }
 
     /// How wrong the stress of a body may be at most, as a part of it, or the strain that loads make, because it crept unevenly over an

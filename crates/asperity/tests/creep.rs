@@ -93,7 +93,7 @@ fn creep_under_a_load_is_the_integral_of_its_rate() {
     assert!(((at(11.0) - at(1.0)) / 10.0 - 1.0).abs() < 1e-3, "{}", at(11.0) - at(1.0));
 }
 
-/// A bar under a true load that grows as it thins: `-m ln(1 - r t/m)` (theory.md, Norton and Hoff), here at a strain of .23 against 2000 increments.
+/// A bar under a dead load, whose stress grows as it thins: `-m ln(1 - r t/m)` (theory.md, Norton and Hoff), here at a strain of .23 against 2000 increments.
 #[test]
 fn a_bar_that_thins_creeps_faster() {
     let deck = "version = 1

@@ -241,7 +241,6 @@ fn an_arch_goes_where_a_prescribed_displacement_leads_it() {
     }
 }
 
-/// What a step after the path says of its load begins where the path ended.
 /// The elastica: a column whose end has gone sideways by three tenths of its length bears `(2 K(k)/pi)^2` of Euler's load, `2 k/K(k) = 0.3`,
 /// `k = 0.2391`. Before that it is shortened by 1/5000 in the load that measures its path.
 #[test]
@@ -291,6 +290,7 @@ fn the_first_increment_does_not_pass_a_limit_point() {
     assert!((peak / fine - 1.0).abs() < 0.03, "{peak} instead of {fine}");
 }
 
+/// What a step after the path says of its load begins where the path ended.
 #[test]
 fn a_load_stays_where_its_path_ended() {
     let deck = format!(

@@ -77,7 +77,7 @@ impl Update {
     /// allows.
     pub const ADAPTIVE: Self = Self { scheme: Scheme::Adaptive(1e-3), substeps: 1, tolerance: None };
 
-    /// What a law takes by itself of which that holds, too, and that often has no answer, where halves would cost much.
+    /// The same for a law that often has no answer, as where voids open, and would be asked for it in all of the halves in vain.
     pub const TWO_STEP: Self = Self { scheme: Scheme::TwoStep, substeps: 1, tolerance: None };
 
     /// The state at the end of an increment that begins with `start`; `step(state, h, end)` takes one implicit step over

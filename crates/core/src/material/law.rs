@@ -148,7 +148,7 @@ pub struct Creep {
     pub stress: f64,
     /// Rate of the equivalent strain,
     pub rate: f64,
-    /// and its derivative by the stress.
+    /// its derivative by the stress,
     pub slope: f64,
     /// and what a unit of equivalent strain that has crept lowers it by.
     pub hardening: f64,

@@ -166,6 +166,10 @@ impl Choice {
 
     /// The same with what follows from the body's thickness, which is asked for where it matters.
     pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
+        if self.integration == Integration::Reduced && !self.flows {
+            self.layers = None;
+            return self;
+        }
         let (body, bonded) = (body(), self.layers.is_some());
         if self.integration == Integration::Reduced {
             self.layers = None;
@@ -220,7 +224,8 @@ impl Choice {
         let (name, part) = (self.kind.name, 100.0 * self.plastic?.abs());
         let why = match (self.kind.degree, self.integration) {
             (1, _) => format!(
-                "up to {part:.0} % too stiff: cells as long as that bend with shear there; shorter ones, and two of second degree through it, do not"
+                "up to {part:.0} % too stiff: cells as long as that bend with shear there; shorter ones, and two of second degree through \
+                 it, do not"
             ),
             (_, Integration::Reduced) => format!(
                 "up to {part:.0} % too stiff: one {name} lies through it, with two integration points; two cells are right"

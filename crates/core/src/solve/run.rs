@@ -4,7 +4,7 @@ use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, R
 use super::constants::path::ASTRAY;
 use super::constants::sizes::{AIM, EASY, PAST, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
-use super::newton::{Converged, Memory, Newton, SolveError};
+use super::newton::{self, Converged, Memory, Newton, SolveError};
 use super::observer::{AttemptRecord, Observer};
 use super::path::Reached;
 use super::predict::learn;
@@ -266,8 +266,8 @@ impl<'a> Run<'a> {
             return false;
         }
         let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
-        let moved = converged.u[..nodes].iter().zip(&self.state.u).map(|(now, before)| (now - before).abs());
-        moved.fold(0.0, f64::max) > ASTRAY * self.problem.size
+        let moved = converged.u[..nodes].iter().zip(&self.state.u).map(|(now, before)| now - before);
+        newton::largest(moved) > ASTRAY * self.problem.size
     }
 
     /// How wrong the stress of a body may be at most, as a part of it, or the strain that loads make, because it crept unevenly over an
@@ -280,12 +280,12 @@ impl<'a> Run<'a> {
         let lanes = self.state.histories.iter().zip(&evaluation.histories).zip(&evaluation.energies);
         let terms = self.problem.terms.iter().zip(lanes).enumerate().filter(|(number, _)| !step.idle.contains(number));
         let moved = u.iter().zip(&self.state.u).zip(self.state.load.iter().zip(&evaluation.load));
+        let past = PAST * exchanged(&self.state)[0].abs();
         let work: f64 = moved.map(|((now, before), (f0, f1))| 0.5 * (f0 + f1) * (now - before)).sum();
         let all = terms.map(|(_, (term, ((old, new), energies)))| {
             let Unevenness { stress, power } = term.unevenness(old, new, dt);
             let crept = energies.dissipated.min(work).max(0.0);
-            let strain =
-                if crept > 0.0 { power * crept / (work + PAST * exchanged(&self.state)[0].abs()) } else { 0.0 };
+            let strain = if crept > 0.0 { power * crept / (work + past) } else { 0.0 };
             (stress.max(strain), term.name())
         });
         let (most, name) = all.fold((0.0, ""), |most, one| if one.0 > most.0 { one } else { most });
@@ -397,9 +397,8 @@ impl<'a> Run<'a> {
         state.leap = leap([expected, driven, moved], self.problem.size);
         if !record.relaxed {
             let served = step.served(dt, wanted, state.step_time - dt);
-            state.next_dt = state
-                .caution
-                .hold(served, step.after(served, wanted, record.first_solutions(), moved / self.problem.size));
+            let after = step.after(served, wanted, record.first_solutions(), moved / self.problem.size);
+            state.next_dt = state.caution.hold(served, after);
             state.caution.proven = served;
         } else {
             // What the jump did must not be carried on, nor its increment be the measure of the next.
@@ -447,7 +446,7 @@ impl<'a> Run<'a> {
     /// The largest motion of a node in the last increment.
     fn moved(&self) -> f64 {
         let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
-        self.state.last_change[..nodes].iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+        newton::largest(self.state.last_change[..nodes].iter().copied())
     }
 
     /// Makes a converged evaluation the state.

@@ -53,7 +53,6 @@ impl Structure {
         } else if moving != self.moving {
             self.moving = moving;
             self.add_moving(assembly.constraints);
-            self.analysis += 1;
         }
     }
 
@@ -62,7 +61,6 @@ impl Structure {
         let attempts = assembly.attempts.iter().zip(stencils);
         attempts.filter(|(attempt, _)| !attempt.is_fixed()).for_each(|(_, s)| self.moving.extend(s));
         self.add_moving(assembly.constraints);
-        self.analysis += 1;
     }
 
     fn rebuild(&mut self, assembly: &Assembly, stencils: &[Stencils], own: Range<usize>) {
@@ -75,10 +73,7 @@ impl Structure {
         self.places = places.collect();
         self.places.iter_mut().flatten().for_each(|places| places.find(&base, |_| true));
         self.pattern = base;
-        if !self.moving.is_empty() {
-            self.add_moving(constraints);
-        }
-        self.analysis += 1;
+        if self.moving.is_empty() { self.analysis += 1 } else { self.add_moving(constraints) }
     }
 
     /// Adds the moving couplings to the pattern of the fixed ones, and finds places anew in the rows that it changes.
@@ -93,6 +88,7 @@ impl Structure {
         for places in self.places.iter_mut().flatten() {
             places.find(&self.pattern, |row| was_longer[row] || is_longer[row]);
         }
+        self.analysis += 1;
     }
 
     /// Which rows have more entries than those of the fixed couplings.

@@ -71,7 +71,8 @@ impl UpdateKeys {
 
 /// How a law is integrated where nothing is said.
 pub const OWN_UPDATE: &str = "one backward-Euler step; two-step sub-steps, each within a thousandth of its halves, for `norton_hoff`, \
-`perzyna`, `mohr_coulomb_hardening`, `drucker_prager_hardening`, `modified_cam_clay`, `ubiquitous_joint` and a back stress with recovery; one two-step for the laws of Gurson";
+`perzyna`, `mohr_coulomb_hardening`, `drucker_prager_hardening`, `modified_cam_clay`, `ubiquitous_joint` and a back stress \
+with recovery; one two-step for the laws of Gurson";
 
 /// The rate where none is said.
 pub const DEFAULT_RATE: &str =

@@ -159,8 +159,8 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     if let Some((most, body, time)) = &run.uneven {
         let part = if *most < 1.0 { format!("{:.0} %", 100.0 * most) } else { "as much as it is".into() };
         summary.notes.push(format!(
-            "body '{body}' creeps unevenly over increments: its stress, or the strain that loads make, may be wrong by {part} at time {time:.4}; smaller increments from \
-             the beginning of that step on make it right, those that a run chooses without `count`"
+            "body '{body}' creeps unevenly over increments: its stress, or the strain that loads make, may be wrong by {part} at time \
+             {time:.4}; smaller increments from the beginning of that step on make it right, those that a run chooses without `count`"
         ));
     }
     if run.state.jumps > 0 {

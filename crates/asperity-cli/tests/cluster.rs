@@ -374,3 +374,42 @@ fn a_bound_on_memory_is_kept() {
         assert!(errors[0].contains("what `solver.memory` allows"), "{errors:?}");
     }
 }
+
+/// A slender column beyond its Euler load, straight.
+const COLUMN: &str = r#"
+version = 1
+space = "plane-strain"
+[mesh.part.column.rectangle]
+from = [0.0, 0.0]
+to = [0.5, 10.0]
+cells = [2, 20]
+cell = "quad8"
+[material.rubber.neo_hookean]
+shear = 100.0
+bulk = 1000.0
+[body.column]
+material = "rubber"
+[[step]]
+name = "squeeze"
+displacement."column.bottom" = { x = 0.0, y = 0.0 }
+displacement."column.top" = { x = 0.0, y = -0.12 }
+increments = { count = 6 }
+"#;
+
+/// MUMPS tells the sign of the determinant, an engine that iterates nothing, and then a note says so.
+#[test]
+fn stability_is_watched_by_determinants() {
+    let trial = Trial::new(COLUMN);
+    let notes = |ranks: usize, words: &[&str]| {
+        let output = trial.asperity(ranks, &[&["run", "deck.toml", "--out", "out"], words].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        std::fs::read_to_string(trial.path("out/summary.json")).unwrap()
+    };
+    for ranks in [1, 2] {
+        let summary = notes(ranks, &[]);
+        assert!(summary.contains("the determinant of the stiffness changes its sign"), "{ranks}: {summary}");
+        assert!(!summary.contains("stability was not watched"), "{ranks}: {summary}");
+    }
+    let summary = notes(1, &["--set", "solver.petsc=-ksp_type gmres -pc_type lu"]);
+    assert!(summary.contains("stability was not watched"), "{summary}");
+}

@@ -6,7 +6,7 @@ use crate::ranks::{Ranks, Rendezvous, start};
 use crate::rows::{Rows, with_held};
 use asperity_core::solve::{Factored, LinearError, LinearSolver, Problem, Unknowns};
 use asperity_core::system::{Csr, Shares};
-use frontal::Work;
+use frontal::{PivotSigns, Work};
 use std::os::raw::c_int;
 use std::ptr;
 use std::sync::Arc;
@@ -407,6 +407,14 @@ impl System {
         }
     }
 
+    /// What the factor says of the signs of the pivots.
+    fn signs(&self) -> Result<Option<PivotSigns>> {
+        match &self.engine {
+            Engine::Mumps(mumps) => mumps.signs(),
+            Engine::Petsc(_) => Ok(None),
+        }
+    }
+
     /// `b - A x`, and its componentwise backward error: the largest part of `|A| |x| + |b|` that it is.
     fn residual(&self, x: &[f64], b: &[f64]) -> std::result::Result<(Vec<f64>, f64), LinearError> {
         let mut error = 0.0_f64;
@@ -548,7 +556,8 @@ impl LinearSolver for Petsc {
         }
         system.factorise(values)?;
         system.factorised = true;
-        Ok(Factored { signs: None, work: system.work().map_err(LinearError::Other)? })
+        let (signs, work) = (system.signs(), system.work());
+        Ok(Factored { signs: signs.map_err(LinearError::Other)?, work: work.map_err(LinearError::Other)? })
     }
 
     fn solve(&mut self, rhs: &mut [f64]) -> std::result::Result<(), LinearError> {

@@ -5,13 +5,13 @@ use crate::petsc::{Result, ffi};
 use crate::ranks::Ranks;
 use asperity_core::solve::{LinearError, Unknowns, dense};
 use asperity_core::system::{Csr, Shares};
-use frontal::{NodeGraph, Options, Work};
+use frontal::{NodeGraph, Options, PivotSigns, Work};
 use std::os::raw::c_int;
 
 /// MUMPS's name of all ranks there are.
 const ALL: c_int = -987_654;
-/// Its parameters (ICNTL), counted from one, with what they are set to: no words, distributed entries, a given order.
-const SET: [(usize, c_int); 8] = [(1, -1), (2, -1), (3, -1), (4, 0), (7, 1), (18, 3), (28, 1), (RESERVE, FEW)];
+/// Its parameters (ICNTL), counted from one, with what they are set to: no words, distributed entries, a given order, the determinant.
+const SET: [(usize, c_int); 9] = [(1, -1), (2, -1), (3, -1), (4, 0), (7, 1), (18, 3), (28, 1), (33, 1), (RESERVE, FEW)];
 /// That of hundredths of its workspace beyond what it foresees. What is not used is taken all the same, so that there are few at first and
 /// more where they were too few.
 const RESERVE: usize = 14;
@@ -31,6 +31,8 @@ const REFUSED: [c_int; 3] = [-5, -7, -13];
 const SHORT: &str =
     "the factor does not fit into the memory of the ranks; more ranks on more machines, or an iterative `solver.petsc`";
 
+/// Place of the determinant (RINFOG(12)), a number below ten that a power of two multiplies.
+const DETERMINANT: usize = 12 - 1;
 /// Place of the workspace that it foresees with few hundredths more (INFO(8)), in numbers.
 const FORESEEN: usize = 8 - 1;
 
@@ -102,6 +104,14 @@ impl Mumps {
                 Err(code) => return Err(LinearError::Other(told(code))),
             }
         }
+    }
+
+    /// What the sign of the determinant says of the pivots, whose own signs its factor L U does not tell.
+    pub fn signs(&self) -> Result<Option<PivotSigns>> {
+        let mut determinant = [self.id.rinfog[DETERMINANT]];
+        self.share(&mut determinant)?;
+        let signs = PivotSigns { symmetric: false, negative: usize::from(determinant[0] < 0.0) };
+        Ok((determinant[0] != 0.0 && determinant[0].is_finite()).then_some(signs))
     }
 
     /// Gives it the workspace that it would take for itself, in huge pages where the system has them: its first touch takes a fifth of a
@@ -236,6 +246,7 @@ mod tests {
         mumps.set(RESERVE, -90);
         assert!(mumps.factorise(&values).unwrap());
         assert!(mumps.more.len() < MORE.len());
+        assert_eq!(mumps.signs().unwrap(), Some(PivotSigns { symmetric: false, negative: 0 }));
         let expected: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
         let mut x = pattern.times(&values, &expected);
         mumps.apply(&mut x).unwrap();

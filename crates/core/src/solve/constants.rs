@@ -31,6 +31,10 @@ pub mod regularisation {
     pub const EASED: f64 = 0.1;
     /// and how often it does so at most.
     pub const MOST_EASED: i32 = 5;
+    /// Iterations in a row over which no contact changes, two beyond the last easing, and part of the unbalanced forces that one leaves
+    /// after which what is free is pushed by more than may hold it: a block beyond its friction.
+    pub const STEADY: i32 = MOST_EASED + 2;
+    pub const PUSHED: f64 = 0.9;
     /// Force over the reference force that holds what meets no stiffness.
     pub const RESISTANCE: f64 = 1e-3;
     /// Gap over a cell that a node may have whose faces touch: the mean, weighted by its function, of what a corner with flanks of 45
@@ -177,6 +181,8 @@ pub mod relaxation {
     pub const ENOUGH: f64 = 0.05;
     /// Part of the tolerance that iterations without the medium must reach at the end.
     pub const SETTLED: f64 = 1e-2;
+    /// Motion over the size of the model beyond which nothing comes to rest.
+    pub const AWAY: f64 = 1.0;
     /// Iterations of one relaxation, at most: those that lead to an end take a few hundred.
     pub const MOST: usize = 600;
 }

@@ -8,7 +8,7 @@ use crate::system::Tangent;
 use crate::{Error, Failure, FailureKind};
 
 /// The failure that motions without stiffness are, in words.
-fn unheld(text: String) -> Failure {
+pub(super) fn unheld(text: String) -> Failure {
     let kind = if text.contains("deforms without resistance") { FailureKind::Hourglass } else { FailureKind::Free };
     Failure::new(text).of(kind)
 }

@@ -3,8 +3,10 @@
 
 use super::constants::convergence::{CORRECTION, LOCAL, NEGLIGIBLE};
 use super::constants::iterations::{NAMED, PATIENCE, STALLED, STALLS};
+use super::constants::regularisation::{PUSHED, STEADY};
 use super::convergence::{Norms, ResidualScale};
 use super::cycle::{Cycle, CycleDetector};
+use super::free::unheld;
 use super::linear::{Factors, LinearSystem};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::path::{Path, Reached};
@@ -395,6 +397,10 @@ impl<'a> Newton<'a> {
             };
             if given_up {
                 return Ok(None);
+            }
+            if main && self.steady > STEADY && !self.regularised.is_empty() && norms.ratio > PUSHED * sequence.ratio {
+                let text = format!("{}: it is pushed that way, and nothing that it touches resists", self.regularised.join("; "));
+                return Err(unheld(text).into());
             }
             let stalls = !sequence.factorised && norms.ratio > STALLED * sequence.ratio;
             sequence.stalls = if stalls { sequence.stalls + 1 } else { 0 };

@@ -7,7 +7,7 @@
 //! 35, 1998). The equilibrium that is found is the one into which a slow motion
 //! falls, and not any solution.
 
-use super::constants::relaxation::{BACK, ENOUGH, FAST, FEW, ITERATIONS, MOST, SETTLED, SLOW, START};
+use super::constants::relaxation::{AWAY, BACK, ENOUGH, FAST, FEW, ITERATIONS, MOST, SETTLED, SLOW, START};
 use super::newton::{Converged, Goal, Iterate, Newton, Sequence, SolveError};
 use super::observer::{AttemptRecord, Observer};
 use crate::Failure;
@@ -74,9 +74,11 @@ impl Newton<'_> {
             failed = taken.is_none();
             self.evaluate(&at.0, at.1.as_deref(), self.tangent())?;
             self.refresh_stiffness()?;
-            let fallen = |dof: &usize| (at.0[*dof] - self.state.u[*dof]).abs() > self.problem.size;
+            let moved = |dof: usize| (at.0[dof] - self.state.u[dof]).abs();
+            let fallen = |dof: &usize| moved(*dof) > AWAY * self.problem.size;
             self.memory.unborne = self.unborne().into_iter().filter(fallen).collect();
-            if !self.memory.unborne.is_empty() {
+            let bodies = 0..self.problem.dofs.nodes() * self.problem.dofs.per_node();
+            if !self.memory.unborne.is_empty() || bodies.into_iter().any(|dof| fallen(&dof)) {
                 break;
             }
             let balanced = at.1.is_none() && self.measure().converged();

@@ -21,14 +21,18 @@ const STEADY: f64 = 0.95;
 const LEFT: [f64; 2] = [0.25, 0.1];
 /// Share that it is raised for, and below which the least would leave it again.
 const AIM: f64 = 0.003;
+/// Part of the radius of a rounding that may penetrate: where the whole does the rounding presses no more, and the place under it flips
+/// to one side.
+const SUNK: f64 = 0.25;
 /// It is raised by powers of this, so that it seldom changes.
 const STEP: f64 = 4.0;
 
 impl FieldContact {
     /// The normal penalty that an accepted history was found with.
     pub(super) fn kept_penalty(&self, history: &History) -> f64 {
-        let kept = self.closed(history).map(|values| values[entry::PENALTY]);
-        kept.fold(self.parts.options.penalty, f64::max)
+        let all = (0..self.slots()).map(|slot| history.slot(slot));
+        let closed = all.filter(|values| values[entry::STATUS] > 0.0);
+        closed.map(|values| values[entry::PENALTY]).fold(self.parts.options.penalty, f64::max)
     }
 
     pub(super) fn closed<'a>(&self, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
@@ -69,13 +73,22 @@ impl FieldAttempt<'_> {
     /// Changes the penalty where the share of the energy asks for it, and says whether it did.
     pub(super) fn stiffen(&mut self, new: &History, taken: [f64; 2]) -> bool {
         let options = &self.contact.parts.options;
+        let raised = options.raised.filter(|_| !self.law.is_compliant() && taken.iter().all(|taken| *taken > 0.0));
+        let Some(RaisedPenalty { from, most }) = raised else { return false };
         // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
-        let bears = |slot: usize| new.slot(slot)[entry::STATUS] > 0.0;
-        let parted = (self.contact.nodal_slots()..self.contact.slots()).any(bears);
-        let raised = options.raised.filter(|_| !self.law.is_compliant() && !parted);
-        let Some(RaisedPenalty { from, most }) = raised.filter(|_| taken.iter().all(|taken| *taken > 0.0)) else {
-            return false;
-        };
+        let feet = self.contact.nodal_slots()..self.contact.slots();
+        let mut borne = feet.filter(|slot| new.slot(*slot)[entry::STATUS] > 0.0).peekable();
+        if borne.peek().is_some() {
+            let sunk = |slot: usize| {
+                let radius = self.contact.tips()[self.contact.tip_of(slot)].radius;
+                radius > 0.0 && new.slot(slot)[entry::PENETRATION] > SUNK * radius
+            };
+            let sinks = self.normal < most && borne.any(sunk);
+            if sinks {
+                (self.normal, self.stiffened) = ((self.normal * STEP).min(most), true);
+            }
+            return sinks;
+        }
         let [[_, before], [mean, now]] =
             [self.history, new].map(|history| self.contact.penetrated(history, self.normal));
         let [first, share] = [before / taken[0], now / taken[1]];

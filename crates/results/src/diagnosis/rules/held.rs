@@ -237,8 +237,10 @@ pub(super) fn lost_contact(facts: &Facts, course: &RunCourse) -> Option<Finding>
     let adrift = adrift.filter(|_| course.ended == End::Well && course.touching == 0);
     // Something was held still, and nothing touches any more.
     let let_go = course.kind().is_some() && course.touching == 0 && course.adrift.is_some();
+    // What slips everywhere is pushed, and touches still.
+    let weight = if slips_everywhere(facts, course).is_some() { 0.7 } else { 0.9 };
     (closed && (free || adrift.is_some() || let_go)).then(|| {
-        finding("lost-contact", 0.9, "a body lost the contact that held it")
+        finding("lost-contact", weight, "a body lost the contact that held it")
             .shown(&course.reason)
             .shown(held_still(course))
             .shown(adrift.map_or(String::new(), |body| {

@@ -399,7 +399,10 @@ impl<'a> Newton<'a> {
                 return Ok(None);
             }
             if main && self.steady > STEADY && !self.regularised.is_empty() && norms.ratio > PUSHED * sequence.ratio {
-                let text = format!("{}: it is pushed that way, and nothing that it touches resists", self.regularised.join("; "));
+                let text = format!(
+                    "{}: it is pushed that way, and nothing that it touches resists",
+                    self.regularised.join("; ")
+                );
                 return Err(unheld(text).into());
             }
             let stalls = !sequence.factorised && norms.ratio > STALLED * sequence.ratio;

@@ -91,6 +91,8 @@ pub const ALL: &[&Case] = &[
     &thick_shells::CASE,
     &strip_punch::CASE,
     &strip_footing::CASE,
+    &strip_footing::DILATANCY,
+    &strip_footing::BANDS,
     &billet::CASE,
     &ring_compression::CASE,
     &rolling::CASE,

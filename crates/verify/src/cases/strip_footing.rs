@@ -5,8 +5,12 @@ use crate::bench::{Bench, reaction};
 use crate::{Case, Measured};
 use asperity::Error;
 
-/// The case.
+/// Associated flow.
 pub const CASE: Case = Case { name: "strip-footing", measure };
+/// Less dilatancy than friction, on the same deck.
+pub const DILATANCY: Case = Case { name: "strip-footing-dilatancy", measure: with_less_dilatancy };
+/// No dilatancy, on meshes along the slip lines.
+pub const BANDS: Case = Case { name: "strip-footing-bands", measure: along_slip_lines };
 
 /// Settlement at which the load has come to rest, for an angle of friction in degrees.
 fn settlement(friction: usize) -> f64 {
@@ -26,14 +30,24 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
             measured.extend(by_default(bench, (cell, n), [friction; 2], settlement(friction))?);
         }
     }
-    for &friction in bench.pick(&[][..], &[10, 20, 30, 35]) {
+    Ok(measured)
+}
+
+fn with_less_dilatancy(bench: &Bench) -> Result<Measured, Error> {
+    let mut measured = Measured::new();
+    for &friction in bench.pick(&[10][..], &[10, 20, 30, 35]) {
         for (cell, n) in [("quad4", 2), ("quad8", 1)] {
             for dilatancy in [friction / 2, 0] {
                 measured.extend(by_default(bench, (cell, n), [friction, dilatancy], SETTLED)?);
             }
         }
     }
-    for &friction in bench.pick(&[][..], &[20, 30]) {
+    Ok(measured)
+}
+
+fn along_slip_lines(bench: &Bench) -> Result<Measured, Error> {
+    let mut measured = Measured::new();
+    for &friction in bench.pick(&[20][..], &[20, 30]) {
         let [mean, range] = bands(bench, friction)?;
         measured.push((format!("nc_{friction}_psi_0_bands"), mean));
         measured.push((format!("nc_{friction}_psi_0_bands_range"), range));
@@ -75,7 +89,9 @@ fn by_default(
     sets.push(format!("mesh.part.ground.rectangle.cell='{cell}'"));
     let (name, mut curve) = (format!("{cell}_{friction}_psi_{dilatancy}"), Vec::new());
     let name = if dilatancy == friction { format!("{cell}_{friction}") } else { name };
-    bench.follow("default.toml", &sets, |model, state| curve.push((state.time, -reaction(model, state, "face")[1])))?;
+    bench.follow("../strip-footing/default.toml", &sets, |model, state| {
+        curve.push((state.time, -reaction(model, state, "face")[1]))
+    })?;
     let load = if dilatancy == friction { curve.last().map_or(f64::NAN, |last| last.1) } else { late(&curve, 0.5)[0] };
     let range = late(&curve, 2.0 / 3.0)[1] / load;
     let found = [("", load), ("_range", range), ("_increments", curve.len() as f64 - 1.0)];
@@ -86,7 +102,8 @@ fn by_default(
 /// never comes to rest.
 fn bands(bench: &Bench, friction: usize) -> Result<[f64; 2], Error> {
     let soil = "material.soil.drucker_prager_plane_strain";
-    let sets = [format!("mesh.file='bands_{friction}.inp'"), format!("{soil}.friction={friction}")];
+    let coarse = bench.pick("_coarse", "");
+    let sets = [format!("mesh.file='bands_{friction}{coarse}.inp'"), format!("{soil}.friction={friction}")];
     let mut curve = Vec::new();
     bench.follow("bands.toml", &sets, |model, state| curve.push((state.time, -reaction(model, state, "face")[1])))?;
     Ok(late(&curve, 0.5))

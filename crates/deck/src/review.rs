@@ -47,7 +47,12 @@ pub fn warnings(made: &Made) -> Vec<Diagnostic> {
 
 fn warnings_of(made: &Made, all: &[Seen]) -> Vec<Diagnostic> {
     let warnings = made.diagnostics.list.iter().filter(|d| d.severity <= Severity::Warning).cloned();
-    let odd = made.deck.contact.iter().flat_map(|(name, _)| Seen::of(all, name).filter_map(|seen| seen.oddity(name)));
+    let odd = made.deck.contact.iter().flat_map(|(name, contact)| {
+        // What may touch itself seldom does so from the beginning.
+        let itself = contact.surface.text == contact.target.text;
+        let told = move |seen: &&Seen| !(itself && seen.found.is_empty());
+        Seen::of(all, name).filter(told).filter_map(|seen| seen.oddity(name))
+    });
     let facts = facts_seen(made, all);
     let implausible = oddities(&facts).into_iter().map(|oddity| Diagnostic::warning(oddity.what).help(oddity.help));
     warnings.chain(odd).chain(implausible).collect()
@@ -345,7 +350,8 @@ impl<'a> Seen<'a> {
     fn oddity(&self, name: &Name) -> Option<Diagnostic> {
         let Some((u, part)) = self.found.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else {
             let what = format!("no point of contact `{name}` sees its target");
-            return Some(Diagnostic::warning(what).at(name.place).help(self.advice));
+            let advice = if self.deforms { "do the two sides face each other, and do they come near?" } else { self.advice };
+            return Some(Diagnostic::warning(what).at(name.place).help(advice));
         };
         let closed = self.found.iter().filter(|(u, _)| *u > 0.0).count();
         let what = format!("{closed} points of contact `{name}` lie inside the target before the first increment");

@@ -109,6 +109,8 @@ pub mod iterations {
     pub const SLOPE: f64 = 10.0;
     /// The same where bodies flow: it must not lead farther away, since what is deformed beyond flow there leads to no end.
     pub const FLOWING: f64 = 1.0;
+    /// Along a step that contact, put right over it, turns uphill, slopes tell nothing: it may leave this part of the unbalanced forces.
+    pub const ASCENT: f64 = 2.0;
     /// An iteration with an old factor stalls that leaves more than this part of the unbalanced forces; so many in a row, and
     /// the next has a fresh one.
     pub const STALLED: f64 = 0.5;

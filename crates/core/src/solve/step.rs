@@ -1,6 +1,6 @@
 //! One step of Newton's method: the linear system, the contact points over its solution, and the line search along it.
 
-use super::constants::iterations::{FLOWING, SLOPE, STRICT};
+use super::constants::iterations::{ASCENT, FLOWING, SLOPE, STRICT};
 use super::constants::steps::{ENOUGH, FAR, GOOD, LOOSEST, SHORTEST, TIGHTEST, TURN};
 use super::linear::{LinearError, Unsolved};
 use super::newton::{Newton, SolveError, Variant};
@@ -159,7 +159,7 @@ impl Newton<'_> {
         (step, tangent): (&NewtonStep, Tangent),
         missing: Option<&[f64]>,
     ) -> Result<f64, Failure> {
-        let (begin, slope) = (u.clone(), self.slope(&step.du));
+        let (begin, slope, unbalanced) = (u.clone(), self.slope(&step.du), norm(&self.residual));
         let along = |part: f64| -> Vec<f64> { begin.iter().zip(&step.du).map(|(u, d)| u + part * d).collect() };
         let rest = |part: f64| missing.filter(|_| part < 1.0).map(|m| m.iter().map(|m| m * (1.0 - part)).collect());
         let mut part = 1.0;
@@ -185,7 +185,8 @@ impl Newton<'_> {
         } else {
             SLOPE
         };
-        if end.abs() <= allowed * slope.abs() {
+        let ascends = slope > 0.0 && !self.strict;
+        if end.abs() <= allowed * slope.abs() || ascends && norm(&self.residual) <= ASCENT * unbalanced {
             return Ok(step.part);
         }
         part = self.search(&along, &step.du, (slope, end))?;

@@ -326,6 +326,59 @@ fn a_pair_that_turns_in_one_increment() {
 #[test]
 fn facets_that_bear_the_pressure() {
     Run::of(RINGS, &[]).doubts(&["facet_ratio"], "contact 'seat'");
+    // Those of a ring of first degree stand eight times as deep in one of second degree as the two rings overlap.
+    let fit = press_fit(["[4, 9], cell = \"quad8\"", "[1, 7], cell = \"quad4\""], [10.0, 21.0]);
+    Run::of(&fit, &[]).doubts(&["facet_ratio"], "contact 'fit'");
+}
+
+/// A shaft of radius 20.01 in a hub of 20, with their cells and their other radii.
+fn press_fit([shaft, hub]: [&str; 2], [inner, outer]: [f64; 2]) -> String {
+    format!(
+        "version = 1
+        space = \"plane-strain\"
+        mesh.part.in.annulus = {{ from = [{inner}, 0.0], to = [20.01, 90.0], cells = {shaft} }}
+        mesh.part.out.annulus = {{ from = [20.0, 0.0], to = [{outer}, 90.0], cells = {hub} }}
+        material.steel.elastic = {{ young = 2.1e5, poisson = 0.3 }}
+        body.in.material = \"steel\"
+        body.out.material = \"steel\"
+        contact.fit = {{ surface = \"in.outer\", target = \"out.inner\", law.frictionless = {{}} }}
+        [[step]]
+        increments.count = 1
+        symmetry = [\"in.start\", \"in.end\", \"out.start\", \"out.end\"]"
+    )
+}
+
+/// Between thin rings of second degree that do not match the pressure goes up and down by half, and its largest is half as much too high;
+/// between rings that match, and of twice as many cells, it does not.
+#[test]
+fn pressures_that_a_mesh_does_not_resolve_are_told() {
+    let told = |[shaft, hub]: [usize; 2]| {
+        let cells = [shaft, hub].map(|count| format!("[1, {count}], cell = \"quad8\""));
+        let run = Run::of(&press_fit([&cells[0], &cells[1]], [19.5, 20.5]), &[]);
+        assert_eq!(run.code(), 0, "{}", run.notes());
+        run.notes().contains("from that of the nodes around")
+    };
+    assert_eq!([[6, 9], [6, 6], [18, 27]].map(told), [true, false, false]);
+}
+
+/// A disc in a groove falls until it touches both sides under a gravity that acts at once: that its forces come last is no energy missing.
+#[test]
+fn what_falls_until_it_touches_is_not_doubted() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.d.annulus = { from = [3.0, 45.0], to = [10.0, 405.0], cells = [2, 24], cell = "quad8" }
+material.steel.elastic = { young = 2000.0, poisson = 0.3 }
+body.d = { material = "steel", density = 1e-6 }
+tool.v.profile = [{ line = [[40.0, 25.85786437626905], [0.0, -14.142135623730951]] }, { line = [[0.0, -14.142135623730951], [-40.0, 25.85786437626905]] }]
+contact.k = { surface = "d.outer", target = "v", law.frictionless = {} }
+[[step]]
+gravity.y = -9810.0
+"#;
+    for law in ["frictionless={}", "coulomb={friction=0.3}"] {
+        let run = Run::of(deck, &[&format!("contact.k.law={{{law}}}")]);
+        assert_eq!(run.code(), 0, "{}", run.notes());
+    }
 }
 
 /// A plate pressed by a force, from under which its block is drawn: it stands on a stop, which bears what the block does not.

@@ -73,7 +73,7 @@ fn straight_edges_of_second_degree_are_facets() {
     let press = made(20.015, "", "");
     let keep = run(&press);
     let said = press.field_contacts[0].facets(&keep.states[0].u, &keep.states[0].histories[press.first_contact()]);
-    assert!(said.is_some_and(|said| said.contains("facets stand")));
+    assert!(said.is_some_and(|(_, said)| said.contains("facets stand")));
     // Without a gap the two are one ring under the pressure outside.
     let fit = made(19.985, ", overlap = \"fit\"", "\npressure.\"o.outer\" = { value = 100.0 }");
     let keep = run(&fit);
@@ -121,7 +121,7 @@ fn facets_of_a_pin_in_a_hole_of_its_radius_are_told() {
         let keep = run(&model);
         let state = &keep.states[0];
         let said = model.field_contacts[0].facets(&state.u, &state.histories[model.first_contact()]);
-        assert_eq!(said.is_some_and(|said| said.contains("of the motion")), told);
+        assert_eq!(said.is_some_and(|(_, said)| said.contains("of the motion")), told);
     }
 }
 
@@ -167,7 +167,7 @@ fn facets_of_rings_in_space_are_told_as_in_the_plane() {
         let (records, said) = (contact.records(&state.u, history), contact.facets(&state.u, history));
         let sum = |of: &dyn Fn(&asperity::contact::ContactRecord) -> f64| records.iter().map(of).sum::<f64>();
         let mean = sum(&|record| record.pressure * record.area) / sum(&|record| record.area);
-        let told = said.map(|said| {
+        let told = said.map(|(_, said)| {
             let part = said.split(" %").next().unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap() / 100.0;
             if said.contains("deeper") { part } else { -part }
         });

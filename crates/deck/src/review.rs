@@ -350,7 +350,8 @@ impl<'a> Seen<'a> {
     fn oddity(&self, name: &Name) -> Option<Diagnostic> {
         let Some((u, part)) = self.found.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else {
             let what = format!("no point of contact `{name}` sees its target");
-            let advice = if self.deforms { "do the two sides face each other, and do they come near?" } else { self.advice };
+            let advice =
+                if self.deforms { "do the two sides face each other, and do they come near?" } else { self.advice };
             return Some(Diagnostic::warning(what).at(name.place).help(advice));
         };
         let closed = self.found.iter().filter(|(u, _)| *u > 0.0).count();

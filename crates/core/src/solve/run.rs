@@ -1,6 +1,6 @@
 //! Steps and increments: the loop around the attempts.
 
-use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
+use super::constants::increments::{ATTEMPTS, CUBIC, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
 use super::constants::path::ASTRAY;
 use super::constants::sizes::{AIM, EASY, PAST, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
@@ -458,7 +458,12 @@ impl<'a> Run<'a> {
         let [before, now] = [&state.internal, &evaluation.internal].map(|forces| along(forces));
         state.external_work += 0.5 * (before + now);
         if now.abs() > before.abs() {
-            state.unresolved_work += 0.5 * (now - before).abs();
+            let energies = state.energies.iter().zip(&evaluation.energies);
+            let begins = energies
+                .zip(&self.problem.terms)
+                .any(|((before, now), term)| term.bends() && before.stored == 0.0 && now.stored > 0.0);
+            let part = if begins { 1.0 } else { CUBIC };
+            state.unresolved_work += 0.5 * part * (now - before).abs();
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;

@@ -198,7 +198,7 @@ pub struct State {
     pub energies: Vec<Energies>,
     /// Work of supports and loads since the start.
     pub external_work: f64,
-    /// What its trapezoids may miss at most where forces grow all along an increment: half of their growth along the motion.
+    /// What its trapezoids may miss where forces grow along an increment.
     pub unresolved_work: f64,
     /// Increments that ended beyond an instability,
     pub jumps: usize,

@@ -1,9 +1,10 @@
 //! What is said of a run at its end besides its figures: what its certificate means in words, what it cost, which promises it
 //! bends.
 
+use super::Reading;
 use super::account::Account;
 use super::certificate::{Certificate, Limits};
-use super::quantities::Parts;
+use super::quantities::{Parts, Touching};
 use super::summary::Summary;
 use asperity_core::mesh::Space;
 use asperity_core::model::Model;
@@ -15,7 +16,11 @@ use asperity_core::system::{State, Term};
 pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     let Account { certificate, limits, summary, .. } = account;
     cost(summary, run, seconds);
-    summary.notes.extend(facets(model, &run.state));
+    for (reading, note) in facets(model, &run.state) {
+        certificate.take(&reading, (run.state.step, run.state.increment, run.state.time));
+        summary.notes.push(note);
+    }
+    summary.notes.extend(rough(model, &run.state));
     summary.notes.extend(model.bodies.iter().flat_map(|(body, term)| locking(body, &run.state, *term)));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
@@ -79,18 +84,21 @@ fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
              may be another than is meant, a tool may have its material on the wrong side, or nothing moves them together"
         )),
         most if most < few => Some(format!(
-            "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves; a \
-             finer surface gives it more"
+            "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves: under a round \
+             body it may be wrong by half; a finer surface gives it more"
         )),
         _ => None,
     };
     certificate.each("closed_points").filter_map(said).collect()
 }
 
-/// What contacts say of the facets that their overlap is between.
-fn facets(model: &Model, state: &State) -> Vec<String> {
-    let contacts = Parts::of(model).contacts;
-    contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.u, &state.histories[*term])).collect()
+/// What contacts say of the facets that their overlap is between, and how much that is.
+fn facets(model: &Model, state: &State) -> Vec<(Reading, String)> {
+    let told = |(term, name, contact): &(usize, String, Touching)| {
+        let (ratio, note) = contact.facets(&state.u, &state.histories[*term])?;
+        Some((Reading::new("facet_ratio", format!("contact '{name}'"), ratio), note))
+    };
+    Parts::of(model).contacts.iter().filter_map(told).collect()
 }
 
 /// Changes of stability that are told one by one.
@@ -178,9 +186,30 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     }
 }
 
+/// Change of the pressure from node to node, over the pressure, from which on it is told.
+const ROUGH: f64 = 0.2;
+
+/// Which contacts have a pressure that changes from node to node as none does that is resolved.
+fn rough(model: &Model, state: &State) -> Vec<String> {
+    let told = |(term, name, contact): &(usize, String, Touching)| {
+        let (rough, node) = contact.roughness(&state.histories[*term])?;
+        (rough > ROUGH).then(|| {
+            format!(
+                "contact '{}': its pressure differs by {:.0} % from that of the nodes around, most at {}: the meshes do not resolve it, and \
+                 while its force is that of all nodes, its peaks are not to be trusted; finer meshes, and where bodies fit into each other \
+                 such as match",
+                name,
+                100.0 * rough,
+                (model.problem.node_name)(node)
+            )
+        })
+    };
+    Parts::of(model).contacts.iter().filter_map(told).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{Frame, Reading};
+    use super::super::Frame;
     use super::*;
 
     #[test]

@@ -10,7 +10,7 @@ use crate::contact::record::{ContactRecord, entry};
 use crate::contact::{Borne, Move, Overlap};
 use crate::system::History;
 use crate::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl FieldContact {
     /// Penetration at each node that sees the target before any motion, negative for a gap, and the same over the size of
@@ -188,9 +188,49 @@ impl FieldContact {
         Some((0..self.slots()).map(|slot| history.slot(slot)[entry::XI] / whole[slot / self.pieces]).collect())
     }
 
+    /// By how much the pressure changes from node to node where all around presses, inside the surface: the differences from the mean of the
+    /// neighbours over the pressures, as means, in which a single peak counts little; and the node at which it changes most. None of few nodes.
+    pub fn roughness(&self, history: &History) -> Option<(f64, usize)> {
+        let surface = self.surface();
+        let neighbours = |node: usize| {
+            let support = surface.nodes[node].support.iter();
+            support.flat_map(|&(face, corner)| {
+                let (field, count) = (&surface.field[face], surface.faces[face].corners());
+                [1, count - 1].map(|step| field[(corner + step) % count])
+            })
+        };
+        let records = |node: usize| (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)));
+        let pressure = |node: usize| {
+            let closed = records(node).filter(|values| values[entry::STATUS] > 0.0);
+            closed.map(|values| values[entry::PRESSURE]).reduce(f64::max)
+        };
+        let closed: Vec<Option<f64>> = (0..surface.nodes.len()).map(pressure).collect();
+        // What was in the target before any motion and is open between closed nodes bears nothing.
+        let hole = |node: usize| {
+            let between: BTreeSet<usize> = neighbours(node).filter(|&node| closed[node].is_some()).collect();
+            (between.len() > 1 && records(node).any(|values| values[entry::OVERLAP] > 0.0)).then_some(0.0)
+        };
+        let pressures: Vec<Option<f64>> = (0..closed.len()).map(|node| closed[node].or_else(|| hole(node))).collect();
+        let around = |node: usize| {
+            let all = neighbours(node).map(|neighbour| pressures[neighbour]).collect::<Option<Vec<f64>>>()?;
+            Some(all.iter().sum::<f64>() / all.len() as f64)
+        };
+        let inside = (0..surface.nodes.len()).filter(|&node| !surface.ends_around(node));
+        let differences = inside.filter_map(|node| Some((node, pressures[node]?, pressures[node]? - around(node)?)));
+        let (mut sum, mut jumps, mut count, mut worst) = (0.0, 0.0, 0, (0.0, 0));
+        for (node, pressure, difference) in differences {
+            (sum, jumps, count) = (sum + pressure.abs(), jumps + difference.abs(), count + 1);
+            if difference.abs() > worst.0 {
+                worst = (difference.abs(), surface.nodes[node].node);
+            }
+        }
+        (count >= MANY && sum > 0.0).then(|| (jumps / sum, worst.1))
+    }
+
     /// Facets whose mean distance is not that of the curved surfaces they stand for: what they add to an overlap that is to be pressed
     /// apart, or take from it, is pressure; so is what they add to the motion that presses one surface into another that it fits.
-    pub fn facets(&self, u: &[f64], history: &History) -> Option<String> {
+    /// As a part of that, and in words.
+    pub fn facets(&self, u: &[f64], history: &History) -> Option<(f64, String)> {
         self.parts.target.as_faces().filter(|_| self.parts.options.overlap != Overlap::Fit)?;
         let overlaps =
             (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
@@ -218,14 +258,16 @@ impl FieldContact {
                 false if -deeper < size => ("farther apart", "the pressure is too low by about as much"),
                 false => ("farther apart", "little or nothing is left of the pressure"),
             };
-            format!(
+            let ratio = deeper.abs() / size;
+            let words = format!(
                 "contact '{}': its facets stand {:.2e} {way} than the curved surfaces that they are meant for, {:.0} % of the {of} of \
                  {size:.2e}, and {off}{peak}; cells of second degree on both sides, matching or finer \
                  facets{fit}",
                 self.parts.name,
                 deeper.abs(),
-                100.0 * deeper.abs() / size
-            )
+                100.0 * ratio
+            );
+            (ratio, words)
         })
     }
 
@@ -267,6 +309,8 @@ impl FieldContact {
     }
 }
 
+/// Nodes from which on their pressures can be told rough.
+const MANY: usize = 5;
 /// Mean distance of facets from curved surfaces over the size of a face, up to which they are flat.
 const ROUNDING: f64 = 1e-6;
 /// Mean distance of facets from curved surfaces over the overlap, or the motion, from which on it is told.

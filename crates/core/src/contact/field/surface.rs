@@ -332,6 +332,12 @@ impl FieldSurface {
         self.nodes[self.field[face][corner]].support.len() == 1
     }
 
+    /// Whether the surface ends at a node.
+    pub fn ends_around(&self, node: usize) -> bool {
+        let around = &self.nodes[node].support;
+        if self.plane { around.len() == 1 } else { self.borders(around).next().is_some() }
+    }
+
     /// Size of a face, a length: its chord, or the root of its area.
     pub fn size(&self, face: usize, mesh: &Mesh) -> f64 {
         let face = &self.faces[face];

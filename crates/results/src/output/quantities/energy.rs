@@ -6,10 +6,6 @@ use crate::output::{Frame, Quantity, Reading, Unit};
 use asperity_core::Error;
 use asperity_core::system::Energies;
 
-/// Part that the trapezoid misses, of what it may at most, of a force that grows from nothing with the third power of the motion, as a
-/// membrane's does: `(1/2 - 1/4) / (1/2)`.
-const CUBIC: f64 = 0.5;
-
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let bodies = of_bodies(source);
     let springs = sum(source, source.parts.springs.iter().copied());
@@ -34,7 +30,7 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         frame.push(Quantity::scalar(name, Unit::Energy, value))?;
     }
     let missing = source.state.external_work - all.taken() - source.state.released;
-    let unexplained = (missing.abs() - CUBIC * source.state.unresolved_work).max(0.0);
+    let unexplained = (missing.abs() - source.state.unresolved_work).max(0.0);
     frame.certify(Reading::new("energy_balance", "", unexplained).over(largest));
     frame.certify(Reading::new("hypoelastic_residue", "", all.residue.abs()).over(largest));
     frame.push(Quantity::scalar("energy.missing", Unit::Energy, missing))

@@ -122,8 +122,15 @@ impl Touching<'_> {
             Self::Field(_) => None,
         }
     }
-    /// What must be said of the facets that its overlap is between.
-    pub fn facets(&self, u: &[f64], history: &History) -> Option<String> {
+    /// By how much the pressure of a field changes from node to node, and where most.
+    pub fn roughness(&self, history: &History) -> Option<(f64, usize)> {
+        match self {
+            Self::Points(_) => None,
+            Self::Field(contact) => contact.roughness(history),
+        }
+    }
+    /// What must be said of the facets that its overlap is between, and their part of it.
+    pub fn facets(&self, u: &[f64], history: &History) -> Option<(f64, String)> {
         match self {
             Self::Points(_) => None,
             Self::Field(contact) => contact.facets(u, history),

@@ -116,11 +116,13 @@ pub enum FailureKind {
     TooMany,
     /// Ranks that run together have come to different things.
     Apart,
+    /// A load moves what nothing holds.
+    Pushed,
 }
 
 impl FailureKind {
     /// All kinds, in this order.
-    pub(crate) const ALL: [Self; 14] = [
+    pub(crate) const ALL: [Self; 15] = [
         Self::Other,
         Self::Free,
         Self::Hourglass,
@@ -135,6 +137,7 @@ impl FailureKind {
         Self::Multipliers,
         Self::TooMany,
         Self::Apart,
+        Self::Pushed,
     ];
 }
 

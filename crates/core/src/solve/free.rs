@@ -8,7 +8,7 @@ use crate::system::Tangent;
 use crate::{Error, Failure, FailureKind};
 
 /// The failure that motions without stiffness are, in words.
-pub(super) fn unheld(text: String) -> Failure {
+fn unheld(text: String) -> Failure {
     let kind = if text.contains("deforms without resistance") { FailureKind::Hourglass } else { FailureKind::Free };
     Failure::new(text).of(kind)
 }
@@ -37,6 +37,14 @@ impl Newton<'_> {
             IfFree::Stop => false,
             IfFree::Hold => true,
         }
+    }
+
+    /// The failure that forces are which move what the last matrix was regularised against.
+    pub(super) fn pushed(&self) -> Failure {
+        let motions = self.regularised.join("; ");
+        let failure = unheld(format!("{motions}: it is pushed that way, and nothing that it touches resists"));
+        let kind = if failure.kind == FailureKind::Free { FailureKind::Pushed } else { failure.kind };
+        failure.of(kind)
     }
 
     /// A solution that was reached with a regularised matrix must be stable without that, unless what is free is to be held.

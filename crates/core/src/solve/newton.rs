@@ -6,7 +6,6 @@ use super::constants::iterations::{NAMED, PATIENCE, STALLED, STALLS};
 use super::constants::regularisation::{PUSHED, STEADY};
 use super::convergence::{Norms, ResidualScale};
 use super::cycle::{Cycle, CycleDetector};
-use super::free::unheld;
 use super::linear::{Factors, LinearSystem};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::path::{Path, Reached};
@@ -399,11 +398,7 @@ impl<'a> Newton<'a> {
                 return Ok(None);
             }
             if main && self.steady > STEADY && !self.regularised.is_empty() && norms.ratio > PUSHED * sequence.ratio {
-                let text = format!(
-                    "{}: it is pushed that way, and nothing that it touches resists",
-                    self.regularised.join("; ")
-                );
-                return Err(unheld(text).into());
+                return Err(self.pushed().into());
             }
             let stalls = !sequence.factorised && norms.ratio > STALLED * sequence.ratio;
             sequence.stalls = if stalls { sequence.stalls + 1 } else { 0 };

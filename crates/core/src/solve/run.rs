@@ -2,6 +2,7 @@
 
 use super::constants::increments::{ATTEMPTS, CUBIC, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
 use super::constants::path::ASTRAY;
+use super::constants::regularisation::CLOSE;
 use super::constants::sizes::{AIM, EASY, PAST, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{self, Converged, Memory, Newton, SolveError};
@@ -459,10 +460,12 @@ impl<'a> Run<'a> {
         state.external_work += 0.5 * (before + now);
         if now.abs() > before.abs() {
             let energies = state.energies.iter().zip(&evaluation.energies);
-            let begins = energies
+            let closes = energies
                 .zip(&self.problem.terms)
                 .any(|((before, now), term)| term.bends() && before.stored == 0.0 && now.stored > 0.0);
-            let part = if begins { 1.0 } else { CUBIC };
+            let places = (0..state.u.len()).filter(|&dof| !self.problem.dofs.is_rotation(dof));
+            let near = newton::largest(places.map(|dof| state.last_change[dof])) <= CLOSE * self.problem.cell_size;
+            let part = if closes && near { 1.0 } else { CUBIC };
             state.unresolved_work += 0.5 * part * (now - before).abs();
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {

@@ -147,7 +147,7 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
     summary.notes.extend(turns(&run.stability.turns));
     summary.notes.extend(snaps(&run.stability.snaps));
-    if counts.factorisations > 0 && run.state.signs.is_none() {
+    if run.state.increment > 0 && counts.factorisations > 0 && run.state.signs.is_none() {
         summary.notes.push(
             "stability was not watched: the linear solver tells nothing of the signs of pivots; a direct one, without \
              `solver.petsc`, does"

@@ -93,6 +93,7 @@ pub(super) fn slips_everywhere(facts: &Facts, course: &RunCourse) -> Option<Find
     let step = facts.steps.get(course.step).filter(|step| !step.loads.is_empty())?;
     let kinds = [
         FailureKind::Free,
+        FailureKind::Pushed,
         FailureKind::Iterations,
         FailureKind::Singular,
         FailureKind::Cycle,
@@ -137,7 +138,7 @@ fn held_still(course: &RunCourse) -> String {
 
 /// A body that only friction is to hold along some axes, which does not.
 pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
-    let free = [FailureKind::Free, FailureKind::Singular, FailureKind::Hourglass];
+    let free = [FailureKind::Free, FailureKind::Pushed, FailureKind::Singular, FailureKind::Hourglass];
     let free = course.kind().is_some_and(|kind| free.contains(&kind)) || course.share(&free) > 0.3;
     let adrift = |body: &BodyFacts| !body.held && course.never_closed();
     // What nothing but a smooth surface touches slides from the beginning, however that shows.
@@ -237,10 +238,8 @@ pub(super) fn lost_contact(facts: &Facts, course: &RunCourse) -> Option<Finding>
     let adrift = adrift.filter(|_| course.ended == End::Well && course.touching == 0);
     // Something was held still, and nothing touches any more.
     let let_go = course.kind().is_some() && course.touching == 0 && course.adrift.is_some();
-    // What slips everywhere is pushed, and touches still.
-    let weight = if slips_everywhere(facts, course).is_some() { 0.7 } else { 0.9 };
     (closed && (free || adrift.is_some() || let_go)).then(|| {
-        finding("lost-contact", weight, "a body lost the contact that held it")
+        finding("lost-contact", 0.9, "a body lost the contact that held it")
             .shown(&course.reason)
             .shown(held_still(course))
             .shown(adrift.map_or(String::new(), |body| {

@@ -51,7 +51,7 @@ pub(super) fn switched_off(facts: &Facts, course: &RunCourse) -> Option<Finding>
 pub(super) fn smallest(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let step = facts.steps.get(course.step)?;
     let few = course.faults.len() <= 3 && !course.faults.is_empty();
-    let cuts = matches!(course.kind(), Some(kind) if ![FailureKind::Free, FailureKind::Hourglass, FailureKind::TooMany].contains(&kind));
+    let cuts = matches!(course.kind(), Some(kind) if ![FailureKind::Free, FailureKind::Pushed, FailureKind::Hourglass, FailureKind::TooMany].contains(&kind));
     (cuts && few && step.smallest > 0.002).then(|| {
         finding("smallest-increment", 0.75, "increments may not become small enough")
             .shown(format!(

@@ -109,7 +109,8 @@ pub mod iterations {
     pub const SLOPE: f64 = 10.0;
     /// The same where bodies flow: it must not lead farther away, since what is deformed beyond flow there leads to no end.
     pub const FLOWING: f64 = 1.0;
-    /// Along a step that contact, put right over it, turns uphill, slopes tell nothing: it may leave this part of the unbalanced forces.
+    /// Slopes tell nothing of a step that goes uphill, as one may that is put right for contact: it may leave this part of the unbalanced
+    /// forces.
     pub const ASCENT: f64 = 2.0;
     /// An iteration with an old factor stalls that leaves more than this part of the unbalanced forces; so many in a row, and
     /// the next has a fresh one.
@@ -183,7 +184,7 @@ pub mod relaxation {
     pub const ENOUGH: f64 = 0.05;
     /// Part of the tolerance that iterations without the medium must reach at the end.
     pub const SETTLED: f64 = 1e-2;
-    /// Motion over the size of the model beyond which nothing comes to rest.
+    /// Motion over the size of the model, more than what is prescribed, beyond which nothing comes to rest.
     pub const AWAY: f64 = 1.0;
     /// Iterations of one relaxation, at most: those that lead to an end take a few hundred.
     pub const MOST: usize = 600;

@@ -75,10 +75,11 @@ impl Newton<'_> {
             self.evaluate(&at.0, at.1.as_deref(), self.tangent())?;
             self.refresh_stiffness()?;
             let moved = |dof: usize| (at.0[dof] - self.state.u[dof]).abs();
-            let fallen = |dof: &usize| moved(*dof) > AWAY * self.problem.size;
-            self.memory.unborne = self.unborne().into_iter().filter(fallen).collect();
-            let bodies = 0..self.problem.dofs.nodes() * self.problem.dofs.per_node();
-            if !self.memory.unborne.is_empty() || bodies.into_iter().any(|dof| fallen(&dof)) {
+            let led = self.step.prescribed.iter().map(|prescribed| moved(prescribed.dof)).fold(0.0, f64::max);
+            let away = |dof: &usize| moved(*dof) > AWAY * self.problem.size + led;
+            self.memory.unborne = self.unborne().into_iter().filter(away).collect();
+            let mut bodies = 0..self.problem.dofs.nodes() * self.problem.dofs.per_node();
+            if !self.memory.unborne.is_empty() || bodies.any(|dof| away(&dof)) {
                 break;
             }
             let balanced = at.1.is_none() && self.measure().converged();

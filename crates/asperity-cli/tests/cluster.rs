@@ -413,3 +413,13 @@ fn stability_is_watched_by_determinants() {
     let summary = notes(1, &["--set", "solver.petsc=-ksp_type gmres -pc_type lu"]);
     assert!(summary.contains("stability was not watched"), "{summary}");
 }
+
+/// What solves in this program is foreseen, and not the library's own solver.
+#[test]
+fn a_look_beforehand_foresees_the_engine_of_the_program() {
+    let trial = Trial::new(COLUMN);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    let output = command.args(["check", "deck.toml"]).current_dir(trial.folder.path()).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("memory of a rank, 1 in all") && !text.contains("memory: about"), "{text}");
+}

@@ -8,7 +8,7 @@ use super::keys;
 use super::reader::Name;
 use asperity_core::contact::field::{FieldContact, FieldSurface};
 use asperity_core::contact::{ContactOptions, LoadedSides, PaperContact, second_name};
-use asperity_core::solve::{OfRanks, Step};
+use asperity_core::solve::{OfRanks, Step, engine};
 use asperity_core::system::Term;
 use asperity_core::tool::Hit;
 use asperity_core::tool::{ProfileTool, Rejected};
@@ -248,9 +248,11 @@ impl Page {
             );
         }
         self.line(line);
-        if let Some(ranks) = ranks {
-            self.ranks(ranks, demand.of_ranks(ranks));
-            return Ok(None);
+        // A program with an engine from outside solves by that, on one rank where nothing is said.
+        if let Some(count) = ranks.or_else(|| engine::provided().then_some(NonZeroUsize::MIN)) {
+            self.ranks(count, demand.of_ranks(count));
+            let short = problem.check_memory(&problem.initial_state()).err().filter(|_| ranks.is_none());
+            return Ok(short.map(|error| Diagnostic::warning(error.to_string())));
         }
         let Some(room) = room else { return Ok(None) };
         let [need, half] = [demand.bytes, demand.symmetric_bytes].map(|bytes| (room.taken + bytes) as f64 / 1e9);

@@ -379,6 +379,26 @@ gravity.y = -9810.0
         let run = Run::of(deck, &[&format!("contact.k.law={{{law}}}")]);
         assert_eq!(run.code(), 0, "{}", run.notes());
     }
+    // Blocks of a third of a unit a cell, and of halves of these, that lie a tenth above what they fall on.
+    let fall = |cell: &str| {
+        format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.a.rectangle = {{ from = [0.0, 0.0], to = [3.0, 1.0], cells = [6, 3], cell = \"{cell}\" }}
+            mesh.part.b.rectangle = {{ from = [0.5, 1.1], to = [2.5, 2.1], cells = [5, 3], cell = \"{cell}\" }}
+            material.steel.elastic = {{ young = 2.1e5, poisson = 0.3 }}
+            body.a.material = \"steel\"
+            body.b.material = \"steel\"
+            contact.j = {{ surface = \"b.bottom\", target = \"a.top\", law.coulomb.friction = 0.3 }}
+            [[step]]
+            displacement.\"a.bottom\" = {{ x = 0.0, y = 0.0 }}
+            body_force.b.y = -10.0"
+        )
+    };
+    for cell in ["quad4", "quad8", "tri3", "tri6"] {
+        let run = Run::of(&fall(cell), &[]);
+        assert_eq!(run.code(), 0, "{cell}: {}", run.notes());
+    }
 }
 
 /// A plate pressed by a force, from under which its block is drawn: it stands on a stop, which bears what the block does not.

@@ -284,8 +284,18 @@ impl Model {
 /// where no contact is declared, and between the two sides of one, which is blind between its points.
 const INTERPENETRATION: [f64; 2] = [0.01, 0.25];
 
+/// Edge of the square or cube that is cut into the smallest cell and such as it: triangles are as large as the squares that they halve.
 fn smallest_cell(mesh: &Mesh) -> f64 {
-    let size = |cell: usize| mesh.measure(cell).abs().powf(1.0 / mesh.kinds[cell].dimension as f64);
+    let size = |cell: usize| {
+        let kind = mesh.kinds[cell];
+        let parts = match (kind.dimension, kind.linear.nodes.len()) {
+            (2, 3) | (3, 6) => 2.0,
+            (3, 5) => 3.0,
+            (3, 4) => 6.0,
+            _ => 1.0,
+        };
+        (parts * mesh.measure(cell).abs()).powf(1.0 / kind.dimension as f64)
+    };
     (0..mesh.cell_count()).map(size).fold(f64::INFINITY, f64::min)
 }
 

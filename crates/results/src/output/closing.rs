@@ -9,7 +9,7 @@ use super::summary::Summary;
 use asperity_core::mesh::Space;
 use asperity_core::model::Model;
 use asperity_core::solid::{Body, Choice};
-use asperity_core::solve::{Run, Snap, Turn};
+use asperity_core::solve::{Run, Snap, Turn, engine};
 use asperity_core::system::{State, Term};
 
 /// Puts notes and costs of a run of `seconds` into its summary.
@@ -147,7 +147,7 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
     summary.notes.extend(turns(&run.stability.turns));
     summary.notes.extend(snaps(&run.stability.snaps));
-    if run.state.increment > 0 && counts.factorisations > 0 && run.state.signs.is_none() {
+    if engine::provided() && run.state.increment > 0 && counts.factorisations > 0 && run.state.signs.is_none() {
         summary.notes.push(
             "stability was not watched: the linear solver tells nothing of the signs of pivots; a direct one, without \
              `solver.petsc`, does"

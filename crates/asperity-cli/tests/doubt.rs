@@ -456,22 +456,7 @@ fn what_nothing_holds_any_more() {
 /// A block that a force pushes beyond its friction has no equilibrium, however small the increment: the run ends soon and names the block.
 #[test]
 fn a_block_that_is_pushed_away_is_named() {
-    let deck = r#"
-version = 1
-space = "plane-strain"
-mesh.part.b.rectangle = { from = [0.0, 0.0], to = [10.0, 4.0], cells = [20, 8], cell = "quad8" }
-material.m.elastic = { young = 1000.0, poisson = 0.3 }
-body.b.material = "m"
-tool.floor.profile = [{ line = [[60.0, 0.0], [-60.0, 0.0]] }]
-contact.c = { surface = "b.bottom", target = "floor", law.coulomb.friction = 0.3 }
-[[step]]
-traction."b.top" = { y = -2.0 }
-displacement."b.right" = { x = 0.0 }
-[[step]]
-release = ["displacement.b.right"]
-traction."b.left" = { x = 2.0 }
-"#;
-    let run = Run::of(deck, &[]);
+    let run = Run::of(include_str!("failures/more/pushed_block.toml"), &[]);
     assert_eq!(run.code(), 3);
     assert!(run.error().contains("body 'b' is free along x: it is pushed that way"), "{}", run.error());
     assert!(

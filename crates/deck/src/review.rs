@@ -251,7 +251,8 @@ impl Page {
         // A program with an engine from outside solves by that, on one rank where nothing is said.
         if let Some(count) = ranks.or_else(|| engine::provided().then_some(NonZeroUsize::MIN)) {
             self.ranks(count, demand.of_ranks(count));
-            let short = problem.check_memory(&problem.initial_state()).err().filter(|_| ranks.is_none());
+            let bound = room.filter(|_| ranks.is_none() && problem.newton.memory.is_some());
+            let short = bound.and_then(|room| demand.check_ranks(&room).err());
             return Ok(short.map(|error| Diagnostic::warning(error.to_string())));
         }
         let Some(room) = room else { return Ok(None) };

@@ -8,7 +8,7 @@
 //! falls, and not any solution.
 
 use super::constants::relaxation::{AWAY, BACK, ENOUGH, FAST, FEW, ITERATIONS, MOST, SETTLED, SLOW, START};
-use super::newton::{Converged, Goal, Iterate, Newton, Sequence, SolveError};
+use super::newton::{Converged, Goal, Iterate, Newton, Sequence, SolveError, largest};
 use super::observer::{AttemptRecord, Observer};
 use crate::Failure;
 use crate::system::apart;
@@ -74,9 +74,9 @@ impl Newton<'_> {
             failed = taken.is_none();
             self.evaluate(&at.0, at.1.as_deref(), self.tangent())?;
             self.refresh_stiffness()?;
-            let moved = |dof: usize| (at.0[dof] - self.state.u[dof]).abs();
-            let led = self.step.prescribed.iter().map(|prescribed| moved(prescribed.dof)).fold(0.0, f64::max);
-            let away = |dof: &usize| moved(*dof) > AWAY * self.problem.size + led;
+            let moved = |dof: usize| at.0[dof] - self.state.u[dof];
+            let led = largest(self.step.prescribed.iter().map(|prescribed| moved(prescribed.dof)));
+            let away = |dof: &usize| moved(*dof).abs() > AWAY * self.problem.size + led;
             self.memory.unborne = self.unborne().into_iter().filter(away).collect();
             let mut bodies = 0..self.problem.dofs.nodes() * self.problem.dofs.per_node();
             if !self.memory.unborne.is_empty() || bodies.any(|dof| away(&dof)) {

@@ -459,13 +459,7 @@ impl<'a> Run<'a> {
         let [before, now] = [&state.internal, &evaluation.internal].map(|forces| along(forces));
         state.external_work += 0.5 * (before + now);
         if now.abs() > before.abs() {
-            let energies = state.energies.iter().zip(&evaluation.energies);
-            let closes = energies
-                .zip(&self.problem.terms)
-                .any(|((before, now), term)| term.bends() && before.stored == 0.0 && now.stored > 0.0);
-            let places = (0..state.u.len()).filter(|&dof| !self.problem.dofs.is_rotation(dof));
-            let near = newton::largest(places.map(|dof| state.last_change[dof])) <= CLOSE * self.problem.cell_size;
-            let part = if closes && near { 1.0 } else { CUBIC };
+            let part = if touches_first(self.problem, state, &evaluation.energies) { 1.0 } else { CUBIC };
             state.unresolved_work += 0.5 * part * (now - before).abs();
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
@@ -517,6 +511,14 @@ fn added(mut forces: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     forces.sort_by_key(|(dof, _)| *dof);
     let sum = |group: &[(usize, f64)]| (group[0].0, group.iter().map(|(_, force)| force).sum());
     forces.chunk_by(|a, b| a.0 == b.0).map(sum).filter(|(_, force)| *force != 0.0).collect()
+}
+
+/// Whether a contact that bore nothing bears with these energies, and what closed it lay close.
+fn touches_first(problem: &Problem, state: &State, energies: &[Energies]) -> bool {
+    let mut all = problem.terms.iter().zip(state.energies.iter().zip(energies));
+    let closes = all.any(|(term, (before, now))| term.bends() && before.stored == 0.0 && now.stored > 0.0);
+    let places = (0..state.u.len()).filter(|&dof| !problem.dofs.is_rotation(dof));
+    closes && newton::largest(places.map(|dof| state.last_change[dof])) <= CLOSE * problem.cell_size
 }
 
 /// Energy that came from outside and that no term has taken up.

@@ -192,13 +192,6 @@ impl FieldContact {
     /// neighbours over the pressures, as means, in which a single peak counts little; and the node at which it changes most. None of few nodes.
     pub fn roughness(&self, history: &History) -> Option<(f64, usize)> {
         let surface = self.surface();
-        let neighbours = |node: usize| {
-            let support = surface.nodes[node].support.iter();
-            support.flat_map(|&(face, corner)| {
-                let (field, count) = (&surface.field[face], surface.faces[face].corners());
-                [1, count - 1].map(|step| field[(corner + step) % count])
-            })
-        };
         let records = |node: usize| (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)));
         let pressure = |node: usize| {
             let closed = records(node).filter(|values| values[entry::STATUS] > 0.0);
@@ -207,15 +200,15 @@ impl FieldContact {
         let closed: Vec<Option<f64>> = (0..surface.nodes.len()).map(pressure).collect();
         // What was in the target before any motion and is open between closed nodes bears nothing.
         let hole = |node: usize| {
-            let between: BTreeSet<usize> = neighbours(node).filter(|&node| closed[node].is_some()).collect();
+            let between: BTreeSet<usize> = surface.neighbours(node).filter(|&node| closed[node].is_some()).collect();
             (between.len() > 1 && records(node).any(|values| values[entry::OVERLAP] > 0.0)).then_some(0.0)
         };
         let pressures: Vec<Option<f64>> = (0..closed.len()).map(|node| closed[node].or_else(|| hole(node))).collect();
         let around = |node: usize| {
-            let all = neighbours(node).map(|neighbour| pressures[neighbour]).collect::<Option<Vec<f64>>>()?;
+            let all = surface.neighbours(node).map(|neighbour| pressures[neighbour]).collect::<Option<Vec<f64>>>()?;
             Some(all.iter().sum::<f64>() / all.len() as f64)
         };
-        let inside = (0..surface.nodes.len()).filter(|&node| !surface.ends_around(node));
+        let inside = (0..surface.nodes.len()).filter(|&node| !surface.ends_at(node));
         let differences = inside.filter_map(|node| Some((node, pressures[node]?, pressures[node]? - around(node)?)));
         let (mut sum, mut jumps, mut count, mut worst) = (0.0, 0.0, 0, (0.0, 0));
         for (node, pressure, difference) in differences {

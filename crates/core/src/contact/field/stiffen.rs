@@ -9,6 +9,7 @@ use super::contact::FieldContact;
 use crate::contact::RaisedPenalty;
 use crate::contact::record::entry;
 use crate::system::History;
+use std::ops::Range;
 
 /// Share of the energy of the bodies above which the penalty is raised: the force is then off by one to four times as much,
 const MOST: f64 = 0.01;
@@ -27,16 +28,21 @@ const SUNK: f64 = 0.25;
 /// It is raised by powers of this, so that it seldom changes.
 const STEP: f64 = 4.0;
 
+/// Those of some stencils that are closed, with their records.
+fn closed(history: &History, slots: Range<usize>) -> impl Iterator<Item = (usize, &[f64])> {
+    slots.map(|slot| (slot, history.slot(slot))).filter(|(_, values)| values[entry::STATUS] > 0.0)
+}
+
 impl FieldContact {
     /// The normal penalty that an accepted history was found with.
     pub(super) fn kept_penalty(&self, history: &History) -> f64 {
-        let all = (0..self.slots()).map(|slot| history.slot(slot));
-        let closed = all.filter(|values| values[entry::STATUS] > 0.0);
-        closed.map(|values| values[entry::PENALTY]).fold(self.parts.options.penalty, f64::max)
+        let kept = closed(history, 0..self.slots()).map(|(_, values)| values[entry::PENALTY]);
+        kept.fold(self.parts.options.penalty, f64::max)
     }
 
+    /// Records of the nodes that are closed.
     pub(super) fn closed<'a>(&self, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
-        (0..self.nodal_slots()).map(|slot| history.slot(slot)).filter(|values| values[entry::STATUS] > 0.0)
+        closed(history, 0..self.nodal_slots()).map(|(_, values)| values)
     }
 
     /// What a penalty lets the mean pressure penetrate, and half its work on that: peaks at a corner ask for none.
@@ -76,14 +82,13 @@ impl FieldAttempt<'_> {
         let raised = options.raised.filter(|_| !self.law.is_compliant() && taken.iter().all(|taken| *taken > 0.0));
         let Some(RaisedPenalty { from, most }) = raised else { return false };
         // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
-        let feet = self.contact.nodal_slots()..self.contact.slots();
-        let mut borne = feet.filter(|slot| new.slot(*slot)[entry::STATUS] > 0.0).peekable();
-        if borne.peek().is_some() {
-            let sunk = |slot: usize| {
+        let mut tips = closed(new, self.contact.nodal_slots()..self.contact.slots()).peekable();
+        if tips.peek().is_some() {
+            let sunk = |(slot, values): (usize, &[f64])| {
                 let radius = self.contact.tips()[self.contact.tip_of(slot)].radius;
-                radius > 0.0 && new.slot(slot)[entry::PENETRATION] > SUNK * radius
+                radius > 0.0 && values[entry::PENETRATION] > SUNK * radius
             };
-            let sinks = self.normal < most && borne.any(sunk);
+            let sinks = self.normal < most && tips.any(sunk);
             if sinks {
                 (self.normal, self.stiffened) = ((self.normal * STEP).min(most), true);
             }

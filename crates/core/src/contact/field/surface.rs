@@ -327,15 +327,18 @@ impl FieldSurface {
         a.cross(b).norm() * around * self.thickness
     }
 
-    /// Whether the surface ends at a corner of a face.
-    pub fn ends_at(&self, face: usize, corner: usize) -> bool {
-        self.nodes[self.field[face][corner]].support.len() == 1
-    }
-
-    /// Whether the surface ends at a node.
-    pub fn ends_around(&self, node: usize) -> bool {
+    /// Whether the surface ends at a node of the field.
+    pub fn ends_at(&self, node: usize) -> bool {
         let around = &self.nodes[node].support;
         if self.plane { around.len() == 1 } else { self.borders(around).next().is_some() }
+    }
+
+    /// The nodes of the field along the edges that leave one, face by face.
+    pub fn neighbours(&self, node: usize) -> impl Iterator<Item = usize> {
+        self.nodes[node].support.iter().flat_map(|&(face, corner)| {
+            let (field, count) = (&self.field[face], self.faces[face].corners());
+            [1, count - 1].map(|step| field[(corner + step) % count])
+        })
     }
 
     /// Size of a face, a length: its chord, or the root of its area.

@@ -285,7 +285,7 @@ impl Configuration<'_> {
         let EdgePlace { x, tangent, .. } = edge.at(xi);
         let (n, to) = (outward(tangent), centre - x);
         let nearer = usize::from(xi > 0.0);
-        let ends = surface.ends_at(f, nearer);
+        let ends = surface.ends_at(surface.field[f][nearer]);
         let inner = if ends { 1.0 - AT_END } else { 1.0 };
         let corner = if xi.abs() < inner { None } else { Some(nearer) };
         // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
@@ -367,7 +367,7 @@ impl FieldContact {
         let (surface, face) = (&self.parts.surface, &self.parts.surface.faces[f]);
         let rest = face.at_rest(&self.parts.mesh);
         let (density, [slope, _]) = surface.density(face, &rest, [xi, 0.0]);
-        if !surface.ends_at(f, usize::from(xi > 0.0)) {
+        if !surface.ends_at(surface.field[f][usize::from(xi > 0.0)]) {
             return [2.0 * density, 2.0 * slope];
         }
         let half = surface.density(face, &rest, face.middle()).0;

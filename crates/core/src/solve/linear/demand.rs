@@ -154,7 +154,10 @@ impl Demand {
     }
 
     /// Whether the ranks there are fit, each by itself, with the one of their engines that takes less.
-    fn check_ranks(&self, room: &Room) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// As those of [`check`](Self::check).
+    pub fn check_ranks(&self, room: &Room) -> Result<(), Error> {
         let count = engine::others().map_or(1, |with| with.size());
         let of_ranks = self.of_ranks(NonZeroUsize::new(count).unwrap_or(NonZeroUsize::MIN));
         self.fits(of_ranks.direct[0].min(of_ranks.multigrid[0]).saturating_sub(room.taken), room)

@@ -350,6 +350,37 @@ fn press_fit([shaft, hub]: [&str; 2], [inner, outer]: [f64; 2]) -> String {
 
 /// Between thin rings of second degree that do not match the pressure goes up and down by half, and its largest is half as much too high;
 /// between rings that match, and of twice as many cells, it does not.
+/// A ball whose facets are long beside the contact, and short in it: the force is right to a thousandth.
+#[test]
+fn facets_outside_a_contact_are_no_fit() {
+    let ball = r#"
+version = 1
+space = "axisymmetric"
+mesh.part.ball.annulus.centre = [0.0, 10.0]
+mesh.part.ball.annulus.from = [5.0, -90.0]
+mesh.part.ball.annulus.along_radius = [{ to = 9.0, cells = 6, ratio = 0.3 }, { to = 10, cells = 12 }]
+mesh.part.ball.annulus.along_angle = [{ to = -80.0, cells = 48 }, { to = -30.0, cells = 12, smooth = true }]
+mesh.part.ball.annulus.cell = "quad4"
+mesh.part.base.rectangle.from = [0.0, -10]
+mesh.part.base.rectangle.along_x = [{ to = 1.5, cells = 40 }, { to = 10, cells = 8, smooth = true }]
+mesh.part.base.rectangle.along_y = [{ to = -1.0, cells = 8, ratio = 0.2 }, { to = 0.0, cells = 10 }]
+mesh.part.base.rectangle.cell = "quad4"
+material.steel.elastic = { young = 210000.0, poisson = 0.3 }
+body.ball.material = "steel"
+body.base.material = "steel"
+contact.touch = { surface = "base.top", target = "ball.outer", law.frictionless = {} }
+[[step]]
+increments.count = 4
+displacement."base.bottom" = { x = 0.0, y = 0.0 }
+displacement."base.left" = { x = 0.0 }
+displacement."ball.start" = { x = 0.0 }
+displacement."ball.inner" = { x = 0.0, y = -0.02 }
+"#;
+    let run = Run::of(ball, &[]);
+    assert_eq!(run.code(), 0, "{}", run.error());
+    assert!(!run.notes().contains("facets"), "{}", run.notes());
+}
+
 #[test]
 fn pressures_that_a_mesh_does_not_resolve_are_told() {
     let told = |[shaft, hub]: [usize; 2]| {

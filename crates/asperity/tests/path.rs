@@ -385,3 +385,34 @@ traction."column.top".y = {}
         }
     }
 }
+
+/// A column that a small side load bends, shortened far beyond Euler's load in steps of any size: it buckles to the side to which it is
+/// bent, and not to the other; nor does it come to its straight shape, which is not stable, where an increment goes past the bifurcation.
+#[test]
+fn a_column_that_is_bent_buckles_to_its_side() {
+    let deck = r#"
+version = 1
+space = "plane-stress"
+mesh.part.column.rectangle = { from = [0.0, 0.0], to = [4.0, 200.0], cells = [2, 50], cell = "quad4" }
+material.steel.elastic = { young = 200e3, poisson = 0.3 }
+body.column.material = "steel"
+group.middle = { of = "column.right", y = [98.0, 102.0] }
+[[step]]
+displacement."column.bottom" = { x = 0.0, y = 0.0 }
+displacement."column.top" = { x = 0.0, y = -0.5 }
+traction."column.left" = { x = 0.001 }
+"#;
+    let euler = 4.0 * std::f64::consts::PI.powi(2) * 200e3 * 64.0 / 12.0 / 40_000.0;
+    for count in ["", "step.1.increments.count=5", "step.1.increments.count=20", "step.1.increments.count=50"] {
+        let sets: Vec<&str> = [count].into_iter().filter(|set| !set.is_empty()).collect();
+        let model = support::model(deck, &sets);
+        let keep = support::run(&model);
+        let columns = support::columns(&model, &keep);
+        let last = |name: &str| *columns[name].last().unwrap();
+        let load = last("reaction.column.bottom.y") / euler;
+        assert!((load - 1.0).abs() < 0.02, "{count}: {load} of Euler's load");
+        let state = keep.states.last().unwrap();
+        let middle = model.mesh.groups["middle"].nodes.iter().map(|&node| state.u[2 * node]).sum::<f64>();
+        assert!(middle > 4.0, "{count}: {middle}");
+    }
+}

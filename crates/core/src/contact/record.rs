@@ -40,7 +40,7 @@ pub mod entry {
     pub const HALF: usize = 15;
     /// Pressure times irreversible slip, summed since the start.
     pub const RUBBED: usize = 16;
-    /// What was added to the penetration that the law saw: multipliers, overlap not yet removed, wear.
+    /// What was added to the penetration that the law saw: multipliers, overlap not yet removed, wear, how much nearer a tool lies.
     pub const CLOSURE: usize = 17;
     /// Penetration at the beginning that is removed little by little,
     pub const OVERLAP: usize = 18;
@@ -56,8 +56,10 @@ pub mod entry {
     pub const UNBENT: usize = 23;
     /// and of those of second degree by how near the contact is to sliding.
     pub const AT_REST: usize = 24;
+    /// How much nearer a round tool in space lies than in the mean.
+    pub const NEARER: usize = 25;
     /// Number of these values.
-    pub const COUNT: usize = 25;
+    pub const COUNT: usize = 26;
 }
 
 /// What is said of an overlap.

@@ -221,6 +221,13 @@ pub mod increments {
     pub const DRIVEN: f64 = 3.0;
     /// and by more than this part of the model's size.
     pub const FAR: f64 = 0.05;
+    /// One goes back whose change turns against that of the one before and is longer by so much than that carried on,
+    pub const BACK: f64 = 1.0;
+    /// and moves some node by more than this part of the model's size;
+    pub const NEAR: f64 = 1e-4;
+    /// it is halved so often, and then taken: a column of slenderness 170 with a side load of a hundredth takes the right side from a 400th of
+    /// the step on.
+    pub const RETURNS: usize = 6;
 }
 
 /// Sizes of increments.
@@ -304,6 +311,8 @@ pub mod stability {
     pub const PASSED: usize = 8;
     /// Cosine of the angle between two vectors of the same mode, at least.
     pub const SAME: f64 = 0.9;
+    /// Amplitude of a mode over the model's size below which nothing tells to which side a path turns.
+    pub const TOWARDS: f64 = 1e-6;
 }
 
 /// The linear step and the line search.

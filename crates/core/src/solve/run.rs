@@ -1,6 +1,6 @@
 //! Steps and increments: the loop around the attempts.
 
-use super::constants::increments::{ATTEMPTS, CUBIC, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
+use super::constants::increments::{ATTEMPTS, BACK, CUBIC, DRIVEN, FAR, JUMPED, LEAP, NEAR, NOISE, RELAX, RETURNS};
 use super::constants::path::ASTRAY;
 use super::constants::regularisation::CLOSE;
 use super::constants::sizes::{AIM, EASY, PAST, UNEVEN};
@@ -13,7 +13,7 @@ use super::problem::{Problem, largest};
 use super::rigid::free_motions;
 use super::schedule::Step;
 use super::snap::{Snap, set_free};
-use super::stability::{Look, Stability};
+use super::stability::{Look, Stability, Turn};
 use crate::system::{Caution, Energies, Interpenetration, State, Unevenness, Workspace};
 use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
@@ -163,7 +163,7 @@ impl<'a> Run<'a> {
         let served = if begun { caution.usual(step) } else { RELAX * caution.usual(step) };
         let again = self.problem.contacts.is_empty() && self.state.jumps > 0;
         let longest = if again { served } else { RELAX * served };
-        let mut cause = String::new();
+        let (mut cause, mut returns) = (String::new(), 0);
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
             let mut record = self.begin(attempt, dt, relaxing);
@@ -185,6 +185,15 @@ impl<'a> Run<'a> {
                         wanted = 0.5 * dt;
                         continue;
                     }
+                    let may_return = returns < RETURNS && !relaxing && step.arc_length.is_none() && step.may_halve(dt);
+                    if may_return && self.goes_back(step, &converged, dt) {
+                        record.failure =
+                            Some("it goes back on the way that the increments before it went, as no path does".into());
+                        observer.attempt(&record);
+                        caution.fail(dt);
+                        (wanted, returns) = (0.5 * dt, returns + 1);
+                        continue;
+                    }
                     let (unevenness, body) = self.unevenness(step, &converged, dt);
                     let even = step.even(dt, unevenness);
                     if let Some(size) = even.filter(|size| unevenness > UNEVEN && *size < AIM * dt && !relaxing) {
@@ -194,6 +203,7 @@ impl<'a> Run<'a> {
                         continue;
                     }
                     if converged.held.is_empty() {
+                        let before = (self.state.signs, self.state.softest.clone());
                         let look = Look {
                             problem: self.problem,
                             record: &record,
@@ -203,6 +213,17 @@ impl<'a> Run<'a> {
                             sprung: converged.reached.as_mut().and_then(|reached| reached.sprung.take()),
                         };
                         record.turn = self.stability.look(&mut self.state, look);
+                        let crosses = |turn: &Turn| turn.crosses(&self.state, (&converged.u, dt), self.problem.size);
+                        if may_return && record.turn.as_ref().is_some_and(crosses) {
+                            (self.state.signs, self.state.softest) = before;
+                            self.stability.forget_last();
+                            (record.turn, record.failure) =
+                                (None, Some("it goes past a bifurcation, back on the way to its mode".into()));
+                            observer.attempt(&record);
+                            caution.fail(dt);
+                            (wanted, returns) = (0.5 * dt, returns + 1);
+                            continue;
+                        }
                     }
                     observer.attempt(&record);
                     self.state.caution = caution;
@@ -269,6 +290,30 @@ impl<'a> Run<'a> {
         let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
         let moved = converged.u[..nodes].iter().zip(&self.state.u).map(|(now, before)| now - before);
         newton::largest(moved) > ASTRAY * self.problem.size
+    }
+
+    /// Whether an increment goes back on the way that those before it went, farther than it would have gone on and than it is driven, while
+    /// what drives it goes on: Newton's method has then come to another branch than the one that a path near it leads to, the other side of a
+    /// column that buckles, or its straight shape beyond the Euler load.
+    fn goes_back(&self, step: &Step, converged: &Converged, dt: f64) -> bool {
+        let state = &self.state;
+        if state.last_dt == 0.0 || step.turns_between(state.step_time, [state.last_dt, dt]) {
+            return false;
+        }
+        let (mut along, mut squares, mut most) = (0.0, [0.0; 2], 0.0_f64);
+        let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
+        let changes = converged.u[..nodes].iter().zip(&state.u).map(|(now, before)| now - before);
+        for (change, last) in changes.zip(&state.last_change) {
+            let carried = last * (dt / state.last_dt);
+            along += change * carried;
+            (squares[0], squares[1]) = (squares[0] + change * change, squares[1] + carried * carried);
+            most = most.max(change.abs());
+        }
+        let driven = step.prescribed.iter().map(|p| (converged.u[p.dof] - state.u[p.dof]).abs()).fold(0.0, f64::max);
+        along < 0.0
+            && squares[0] > BACK * BACK * squares[1]
+            && most > DRIVEN * driven
+            && most > NEAR * self.problem.size
     }
 
     /// How wrong the stress of a body may be at most, as a part of it, or the strain that loads make, because it crept unevenly over an

@@ -182,6 +182,12 @@ impl Step {
         self.amplitudes.iter().filter_map(|amplitude| amplitude.bend(near)).chain(given).reduce(f64::min)
     }
 
+    /// Whether an amplitude bends where an increment of the second length follows one of the first at `done`.
+    pub(super) fn turns_between(&self, done: f64, [last, dt]: [f64; 2]) -> bool {
+        let near = [done - last, done + dt].map(|time| (time / self.duration).clamp(0.0, 1.0));
+        self.amplitudes.iter().any(|amplitude| amplitude.bend(near).is_some())
+    }
+
     /// The size that an increment `dt` from `done` on stands for where the controller wanted `wanted`: that, if an amplitude's bend cut
     /// it short.
     pub(super) fn served(&self, dt: f64, wanted: f64, done: f64) -> f64 {

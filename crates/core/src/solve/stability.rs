@@ -9,7 +9,7 @@
 //! not the one that the last pivots said, this matrix is factorised and counted. Increments are passed over in which the quotient,
 //! carried on in time, keeps more than half of itself.
 
-use super::constants::stability::{BEGUN, CHANGED, FOLLOWED, KEPT, PASSED, SAME, SETTLED};
+use super::constants::stability::{BEGUN, CHANGED, FOLLOWED, KEPT, PASSED, SAME, SETTLED, TOWARDS};
 use super::linear::LinearSystem;
 use super::newton::Memory;
 use super::observer::AttemptRecord;
@@ -51,6 +51,20 @@ impl std::fmt::Display for Turn {
             false => write!(f, ": the determinant of the stiffness changes its sign")?,
         }
         write!(f, "; the mode is largest at {}", self.largest)
+    }
+}
+
+impl Turn {
+    /// Whether the way to `u` over which stability was lost leads back along the mode, farther than the increment before led along it: a
+    /// shape that is not perfect leaves towards one side, and Newton's method has come to the branch beyond, which is not stable.
+    pub(super) fn crosses(&self, state: &State, (u, dt): (&[f64], f64), size: f64) -> bool {
+        if self.negative[1] < self.negative[0] || state.last_dt == 0.0 {
+            return false;
+        }
+        let change =
+            u.iter().zip(&state.u).zip(&self.mode).map(|((now, before), mode)| (now - before) * mode).sum::<f64>();
+        let carried = dot(&state.last_change, &self.mode) * (dt / state.last_dt);
+        change * carried < 0.0 && change.abs() > carried.abs().max(TOWARDS * size * dot(&self.mode, &self.mode))
     }
 }
 
@@ -107,6 +121,11 @@ impl Stability {
         self.turns.extend(turn.clone().map(|turn| Turn { mode: Vec::new(), ..turn }));
         self.spent += begun.elapsed();
         turn
+    }
+
+    /// Forgets the turn that was found last: its increment is not accepted.
+    pub(super) fn forget_last(&mut self) {
+        self.turns.pop();
     }
 
     /// Improves the softest mode by the old factor; whether its quotient has not the sign that the last pivots said.

@@ -13,6 +13,8 @@ use std::sync::Arc;
 const ROUNDING: f64 = 1e-12;
 /// A note says where more than this part of the function of a node has nothing opposite: about a twentieth of a face.
 const BARE: f64 = 0.1;
+/// A warning says where the faces of what follows are longer by so much.
+const COARSE: f64 = 2.0;
 
 /// A tie and where the deck says it.
 pub(super) struct Glued {
@@ -44,19 +46,43 @@ impl Builder<'_> {
         }
         let tolerance = keys.tolerance.map(|tolerance| tolerance.value);
         let parts = TieParts { mesh: &mesh, space: self.site.space, surface, target, tolerance };
-        let tie = match TiedSurfaces::new(&parts) {
-            Ok(tie) => tie,
+        let (tie, swapped) = match TiedSurfaces::finer_follows(&parts, BARE) {
+            Ok(glued) => glued,
             Err(apart) => {
                 self.apart(keys, &apart);
                 return None;
             }
         };
+        self.roles(keys, &tie, swapped);
         self.bare(keys, &tie);
         if keys.gap == TieGap::Close {
             self.close(&tie);
         }
         let names = [keys.surface.text.clone(), keys.target.text.clone()];
         Some(Glued { tie, number, names, place: keys.place })
+    }
+
+    /// Says that the target follows, or how coarse what follows is.
+    fn roles(&mut self, keys: &keys::TieKeys, tie: &TiedSurfaces, swapped: bool) {
+        let keys::TieKeys { surface, target, .. } = keys;
+        let what = match swapped {
+            true => format!(
+                "the faces of `{surface}` are {:.1} times as long as those of `{target}`, whose nodes follow in their stead",
+                tie.coarser.recip()
+            ),
+            false if tie.coarser >= COARSE => format!(
+                "the faces of `{surface}`, whose nodes follow, are {:.1} times as long as those of `{target}`: what lies between is free, \
+                 and too soft",
+                tie.coarser
+            ),
+            false => return,
+        };
+        let found = if swapped {
+            Diagnostic::note(what)
+        } else {
+            Diagnostic::warning(what).help("swap them, and glue what reaches beyond to nothing by [group.NAME]")
+        };
+        self.found.push(found.at(surface.place));
     }
 
     /// Says what of the surface reaches beyond the target.

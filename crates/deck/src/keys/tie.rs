@@ -9,7 +9,7 @@ use asperity_core::declare::{Range, unit};
 table! {
     /// A surface glued to another where it is, in all steps.
     pub struct TieKeys {
-        /// The group of sides whose nodes follow; best the one with the finer mesh.
+        /// The group of sides whose nodes follow; those of the target do where the faces of this one are 1.5 times as long and more.
         surface: Name = refers(Names::Sides).required(),
         /// The group of sides that they follow.
         target: Name = refers(Names::Sides).required(),

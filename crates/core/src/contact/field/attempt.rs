@@ -54,6 +54,8 @@ pub struct FieldAttempt<'a> {
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
     pub ahead: Vec<f64>,
+    /// How much nearer a round tool in space lies than in the mean, slot by slot.
+    pub nearer: Vec<f64>,
     /// Closure and slips that multipliers stand for, slot by slot.
     pub shifts: Vec<[f64; COUNT]>,
     /// How often they were improved in the attempt,
@@ -212,7 +214,12 @@ impl FieldAttempt<'_> {
     /// What is added to the penetration of a node before the law sees it.
     fn closure(&self, slot: usize) -> f64 {
         let options = &self.contact.parts.options;
-        self.shift(slot)[0] + options.overlap.recession(self.law.recession(), self.history.slot(slot), self.at)
+        let recession = options.overlap.recession(self.law.recession(), self.history.slot(slot), self.at);
+        self.shift(slot)[0] + self.nearer(slot) + recession
+    }
+
+    fn nearer(&self, slot: usize) -> f64 {
+        self.nearer.get(slot).copied().unwrap_or_default()
     }
 
     /// How much deeper an open node must lie for the law to answer as for a closed one, where the first guess holds it closed: it was
@@ -296,6 +303,7 @@ impl FieldAttempt<'_> {
         let (options, multiplied, terms) = (&contact.parts.options, self.shift(slot)[0], (law, &past, old));
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
+        new[entry::NEARER] = self.nearer(slot);
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (here, slip) = (sums.y[0] + self.closure(slot), [sums.y[1], sums.y[2]]);
         let lift = self.lift(slot, &past, [here, slip[0], slip[1]]);
@@ -340,6 +348,8 @@ impl FieldAttempt<'_> {
         account(terms, (options, self.at), (sums.area * stretch, multiplied), (Some(&response), slip), local);
         new[entry::PENALTY] = self.normal;
         local.supplied += sums.area * self.supplied(old, new);
+        let pressure = 0.5 * (old[entry::PRESSURE] + new[entry::PRESSURE]);
+        local.supplied += sums.area * stretch * pressure * (new[entry::NEARER] - old[entry::NEARER]);
         Ok(response.status as Branch)
     }
 

@@ -132,6 +132,10 @@ impl FieldContact {
     pub(super) fn piece_of(&self, target: usize) -> usize {
         self.parts.target.as_faces().map_or(target, |faces| faces.surface.pieces[target])
     }
+    /// Whether a piece of the target is a round one of a tool.
+    pub(super) fn is_round(&self, piece: usize) -> bool {
+        self.parts.target.as_tool().is_some_and(|tool| !tool.is_straight(piece))
+    }
     /// Whether the averaged normals of the surface matter.
     pub(super) fn needs_normals(&self) -> bool {
         matches!(self.parts.target, FieldTarget::Faces(_))

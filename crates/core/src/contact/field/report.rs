@@ -266,13 +266,10 @@ impl FieldContact {
 
     /// By how much the facets of both sides stand deeper in each other than smooth surfaces, where they see each other before any motion.
     fn deeper(&self) -> f64 {
-        let (mesh, still) = (&self.parts.mesh, vec![0.0; self.parts.dofs.count()]);
-        let mut rises = self.parts.surface.rises(mesh);
-        rises.extend(self.parts.target.as_faces().into_iter().flat_map(|faces| faces.surface.rises(mesh)));
         let (mut sum, mut whole) = (0.0, 0.0);
-        self.each_seen(&still, (self.reach(&still), None), |_, stencil, sums| {
-            sum += stencil.sides(sums).map(|(side, _, area)| area * rises[&side]).sum::<f64>();
-            whole += sums.area;
+        self.each_risen(|_, rises, area| {
+            sum += rises.iter().sum::<f64>();
+            whole += area;
         });
         if whole > 0.0 { -sum / whole } else { 0.0 }
     }
@@ -280,11 +277,26 @@ impl FieldContact {
     /// The distance in which most of the surface lay to the target before any motion, up to what facets leave surfaces that fit; none where
     /// it differs by more from place to place.
     fn clearance(&self) -> Option<f64> {
-        let (mut gaps, near) = (self.initial_gaps(), self.sagitta());
+        let mut gaps = Vec::new();
+        self.each_risen(|gap, rises, area| {
+            gaps.push((gap, STANDS_OFF * rises.iter().map(|rise| rise.abs()).sum::<f64>() / area))
+        });
         gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
         let median = -gaps.get(gaps.len() / 2)?.0;
-        (2 * gaps.iter().filter(|(gap, _)| (gap + median).abs() <= near).count() > self.parts.surface.nodes.len())
+        (2 * gaps.iter().filter(|(gap, near)| (gap + median).abs() <= *near).count() > self.parts.surface.nodes.len())
             .then_some(median.max(0.0))
+    }
+
+    /// Calls `take` with the gap of each slot that sees a face before any motion, what smooth surfaces rise above the sides around it on
+    /// either side of the contact, over the area of each, and its area.
+    fn each_risen(&self, mut take: impl FnMut(f64, &[f64], f64)) {
+        let (mesh, still) = (&self.parts.mesh, vec![0.0; self.parts.dofs.count()]);
+        let mut rises = self.parts.surface.rises(mesh);
+        rises.extend(self.parts.target.as_faces().into_iter().flat_map(|faces| faces.surface.rises(mesh)));
+        self.each_seen(&still, (self.reach(&still), None), |_, stencil, sums| {
+            let rises: Vec<f64> = stencil.sides(sums).map(|(side, _, area)| area * rises[&side]).collect();
+            take(sums.y[0], &rises, sums.area);
+        });
     }
 
     /// The largest displacement of a node of the surface or of what it may touch.
@@ -302,6 +314,9 @@ impl FieldContact {
     }
 }
 
+/// Distance of facets from a smooth surface at a node over that in the mean, at most: in the middle of a side it is half as much again,
+/// and the function of a node is negative in part.
+const STANDS_OFF: f64 = 3.0;
 /// Nodes from which on their pressures can be told rough.
 const MANY: usize = 5;
 /// Mean distance of facets from curved surfaces over the size of a face, up to which they are flat.

@@ -109,14 +109,16 @@ impl Term for FieldContact {
         let shifts = if augmented { history.slot(self.slots()) } else { &[] };
         let law = self.parts.law.at(at.step, at.step_time)?;
         let normal = self.kept_penalty(history);
+        let (far, depths) = (reach(self.longest, &accepted.last_change), self.depths(&accepted.u));
         Ok(Box::new(FieldAttempt {
             contact: self,
             history,
             accepted: &accepted.u,
             tips_before: self.tips_before(&before, history),
             duals: self.dual_limits(&before.placed, history),
+            nearer: before.nearer(history, (far, &depths)),
             before,
-            depths: self.depths(&accepted.u),
+            depths,
             reach: self.reach(&accepted.last_change),
             ahead: accepted.ahead(at.dt),
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
@@ -130,7 +132,7 @@ impl Term for FieldContact {
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
             idle: self.idle(history),
-            far: reach(self.longest, &accepted.last_change),
+            far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
             hold: AtomicBool::default(),
             held: AtomicBool::default(),

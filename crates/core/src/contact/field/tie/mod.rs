@@ -26,6 +26,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Default of the largest gap, as a part of the mean size of the faces.
 const TOLERANCE: f64 = 0.05;
+/// Mean size of the faces of the surface over that of its target's from which on the target follows.
+const COARSER: f64 = 1.5;
 /// A node of whose functions less than this part has something opposite does not follow it.
 const COVERED: f64 = 0.2;
 /// Factors below this part of that of the node itself are rounding.
@@ -76,6 +78,8 @@ pub struct TiedSurfaces {
     pub bare: f64,
     /// the node around which that is most, and the part of the node's function.
     pub barest: (usize, f64),
+    /// Mean size of the faces of the surface over that of its target's.
+    pub coarser: f64,
 }
 
 /// Why surfaces cannot be glued.
@@ -118,7 +122,25 @@ impl TiedSurfaces {
             let (distance, at) = nearest(mesh, &own, &others);
             return Err(Apart::Nothing(distance, at, tolerance));
         }
-        Ok(Self { conditions, nodes: [own, others], tolerance, gap, bare, barest })
+        let coarser = sizes[0][0] / sizes[1][0];
+        Ok(Self { conditions, nodes: [own, others], tolerance, gap, bare, barest, coarser })
+    }
+
+    /// Glues two surfaces so that the finer one follows, and says whether that is the target: conditions as many as a coarse surface has
+    /// nodes leave a fine one between them free. The surface follows where the meshes are about as fine, or some of the target would have
+    /// more than the part `bare` of a function without anything opposite.
+    ///
+    /// # Errors
+    /// [`Apart`] where they are not together.
+    pub fn finer_follows(parts: &TieParts, bare: f64) -> Result<(Self, bool), Apart> {
+        let given = Self::new(parts)?;
+        if given.coarser >= COARSER {
+            let swapped = TieParts { surface: parts.target, target: parts.surface, ..*parts };
+            if let Some(other) = Self::new(&swapped).ok().filter(|other| other.barest.1 < bare) {
+                return Ok((other, true));
+            }
+        }
+        Ok((given, false))
     }
 
     /// Where the nodes that follow must lie so that turning both surfaces as one keeps them together: where the target's

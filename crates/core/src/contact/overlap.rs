@@ -20,7 +20,7 @@ pub enum Overlap {
 }
 
 impl Overlap {
-    /// Takes the overlap of a point into its first history; up to `least` it is none. `added` is the time of the step in which the
+    /// Takes the overlap of a point into its first history, with how much nearer the target lies than in the mean; up to `least` it is none. `added` is the time of the step in which the
     /// contact is there again, if it was not from the start.
     pub fn begin(&self, values: &mut [f64], least: f64, added: Option<[f64; 2]>) {
         let during = match (self, added) {
@@ -29,9 +29,10 @@ impl Overlap {
             (Self::Ramp(time), None) => [0.0, *time],
             (_, added) => added.unwrap_or_default(),
         };
-        if values[entry::PENETRATION] > least {
-            values[entry::OVERLAP] = values[entry::PENETRATION];
-            values[entry::CLOSURE] = -values[entry::PENETRATION];
+        let overlap = values[entry::PENETRATION] + values[entry::NEARER];
+        if overlap > least {
+            values[entry::OVERLAP] = overlap;
+            values[entry::CLOSURE] = values[entry::NEARER] - overlap;
             [values[entry::SINCE], values[entry::UNTIL]] = during;
         }
     }

@@ -225,7 +225,7 @@ pub mod increments {
     pub const BACK: f64 = 1.0;
     /// and moves some node by more than this part of the model's size;
     pub const NEAR: f64 = 1e-4;
-    /// it is halved so often, and then taken: a column of slenderness 170 with a side load of a hundredth takes the right side from a 400th of
+    /// it is halved so often, and then taken: a column of slenderness 170 under a side load of 4e-6 of its Euler stress takes the right side from a 400th of
     /// the step on.
     pub const RETURNS: usize = 6;
 }

@@ -24,17 +24,27 @@ impl FieldContact {
             (values[entry::HALF], values[entry::UNBENT], values[entry::AT_REST]) = (1.0, 1.0, 1.0);
             self.parts.law.first().initial(&mut values[entry::COUNT..]);
         }
-        let (still, fits) = (vec![0.0; u.len()], FITS * self.sagitta());
+        let still = vec![0.0; u.len()];
         self.each_seen(u, (self.reach(&still), None), |slot, stencil, sums| {
             let values = history.slot_mut(slot);
             (values[entry::PENETRATION], values[entry::XI]) = (sums.y[0], sums.area);
             values[entry::SEGMENT] = stencil.segment();
-            let gap = -sums.y[0];
+        });
+        let near = (reach(self.longest, &still), &self.depths(u)[..]);
+        let (fits, nearer) = (FITS * self.sagitta(), Configuration::new(self, u).nearer(&history, near));
+        for (slot, nearer) in nearer.into_iter().enumerate() {
+            let values = history.slot_mut(slot);
+            if values[entry::SEGMENT] < 0.0 {
+                continue;
+            }
+            let gap = -values[entry::PENETRATION];
             if self.parts.options.overlap == Overlap::Fit && gap > 0.0 && gap <= fits {
-                (values[entry::OVERLAP], values[entry::CLOSURE]) = (sums.y[0], gap);
+                (values[entry::OVERLAP], values[entry::CLOSURE]) = (-gap, gap);
+            } else {
+                values[entry::NEARER] = nearer;
             }
             self.parts.options.overlap.begin(values, self.least, added);
-        });
+        }
         history
     }
 

@@ -506,6 +506,8 @@ impl<'a> Run<'a> {
         if now.abs() > before.abs() {
             let part = if touches_first(self.problem, state, &evaluation.energies) { 1.0 } else { CUBIC };
             state.unresolved_work += 0.5 * part * (now - before).abs();
+        } else if parts(self.problem, state, &evaluation.energies) {
+            state.unresolved_work += 0.5 * (before - now).abs();
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
@@ -564,6 +566,12 @@ fn touches_first(problem: &Problem, state: &State, energies: &[Energies]) -> boo
     let closes = all.any(|(term, (before, now))| term.bends() && before.stored == 0.0 && now.stored > 0.0);
     let places = (0..state.u.len()).filter(|&dof| !problem.dofs.is_rotation(dof));
     closes && newton::largest(places.map(|dof| state.last_change[dof])) <= CLOSE * problem.cell_size
+}
+
+/// Whether a contact that bore bears nothing with these energies: it may have parted at any place of the way.
+fn parts(problem: &Problem, state: &State, energies: &[Energies]) -> bool {
+    let mut all = problem.terms.iter().zip(state.energies.iter().zip(energies));
+    all.any(|(term, (before, now))| term.bends() && before.stored > 0.0 && now.stored == 0.0)
 }
 
 /// Energy that came from outside and that no term has taken up.

@@ -34,8 +34,9 @@ const ROWS: usize = 2;
 const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 
 impl Configuration<'_> {
-    /// For each slot of an accepted configuration how much nearer the target is than in the mean, if its gap is no larger than `far`; over
-    /// round tools in the plane, which have tips, nothing. `depths` are those of its faces.
+    /// For each slot of an accepted configuration how much nearer the target is than in the mean, if its gap is no larger than `far`. Nothing over
+    /// tools in the plane, which have tips, and dual functions where they are straight, nor where a surface folds onto itself. `depths` are
+    /// those of its faces.
     pub(super) fn nearer(&self, history: &History, (far, depths): (f64, &[f64])) -> Vec<f64> {
         let (contact, surface) = (self.contact, &self.contact.parts.surface);
         let mean = |slot: usize| {
@@ -43,7 +44,10 @@ impl Configuration<'_> {
             (values[entry::SEGMENT] >= 0.0).then(|| -values[entry::PENETRATION])
         };
         let mut nearer = vec![0.0; contact.slots()];
-        for piece in (0..contact.pieces).filter(|&piece| !surface.plane || !contact.is_round(piece)) {
+        if contact.roles.itself || surface.plane && matches!(self.target, TargetInPlace::Tool(_)) {
+            return nearer;
+        }
+        for piece in 0..contact.pieces {
             let gap = |node: usize| mean(contact.slot(node, piece));
             // By how much farther from the target than a node one of those around it is, and the least of that up to two edges away.
             let beside = |node: usize| {

@@ -232,11 +232,12 @@ impl FieldContact {
         let pressed = 4.0 * count > self.nodal_slots() as f64;
         let clearance = if pressed { -sum / count } else { self.clearance()? };
         let deeper = self.deeper();
-        // What the curved surfaces overlap by, and where that is nothing what moves them into each other.
+        // What the curved surfaces overlap by, and where that is nothing or little what moves them into each other, as heat does.
         let overlap = -(clearance + deeper);
-        let (of, size) = match overlap > MISPLACED * deeper.abs() {
+        let moved = self.motion(u) + overlap;
+        let (of, size) = match overlap > (MISPLACED * deeper.abs()).max(LITTLE * moved) {
             true => ("overlap", overlap),
-            false => ("motion beyond the clearance", self.motion(u) + overlap),
+            false => ("motion beyond the clearance", moved),
         };
         let curved = deeper.abs() > ROUNDING * self.parts.surface.mean_size(&self.parts.mesh);
         (curved && size > 0.0 && deeper.abs() > MISPLACED * size).then(|| {
@@ -321,5 +322,7 @@ const STANDS_OFF: f64 = 3.0;
 const MANY: usize = 5;
 /// Mean distance of facets from curved surfaces over the size of a face, up to which they are flat.
 const ROUNDING: f64 = 1e-6;
+/// Overlap over the motion, up to which it is what a drawing rounds, and the motion presses.
+const LITTLE: f64 = 2e-3;
 /// Mean distance of facets from curved surfaces over the overlap, or the motion, from which on it is told.
 const MISPLACED: f64 = 0.02;

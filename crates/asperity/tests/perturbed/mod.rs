@@ -43,6 +43,7 @@ pub fn options(loads: LoadedSides) -> ContactOptions {
     ContactOptions {
         raised: None,
         penalty: 1.0,
+        modulus: 1.0,
         tangential_penalty: 0.7,
         elastic_slip: None,
         thickness: 1.0,

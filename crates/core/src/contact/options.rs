@@ -18,6 +18,9 @@ pub struct RaisedPenalty {
 pub struct ContactOptions {
     /// Normal penalty, a stress per length; the least where it is raised.
     pub penalty: f64,
+    /// Modulus of both sides against each other, the inverse of the sum of the inverses of what stands behind each; that of the only one
+    /// that deforms.
+    pub modulus: f64,
     /// How the normal penalty of a field is raised where penetration takes up energy that is the bodies', or where augmentation is slow;
     /// none where it stays as it is.
     pub raised: Option<RaisedPenalty>,

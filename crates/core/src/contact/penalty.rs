@@ -41,6 +41,8 @@ pub struct DefaultPenalty {
     pub value: f64,
     /// How it may be raised.
     pub raised: RaisedPenalty,
+    /// The modulus of both sides against each other.
+    pub modulus: f64,
 }
 
 /// Largest penalty over the stiffness of the cells in compression: no more than rounding allows beside that.
@@ -53,7 +55,11 @@ pub fn default_penalty(
     behind: impl Fn(usize) -> Backing,
 ) -> DefaultPenalty {
     let least = |a: DefaultPenalty, b: DefaultPenalty| if b.value < a.value { b } else { a };
-    let stiffest = DefaultPenalty { value: f64::INFINITY, raised: RaisedPenalty { from: 0.0, most: f64::INFINITY } };
+    let stiffest = DefaultPenalty {
+        value: f64::INFINITY,
+        raised: RaisedPenalty { from: 0.0, most: f64::INFINITY },
+        modulus: f64::INFINITY,
+    };
     let of = |sides: &&[Side]| {
         let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
         let followed = |side: &Side| {
@@ -63,9 +69,11 @@ pub fn default_penalty(
             let bent = plate.map(|plate| (secant * stiffness(plate.thickness, curvature), SLIGHT * plate.thickness));
             let (followed, from) = bent.filter(|bent| bent.0 < squeezed).unwrap_or((squeezed, 0.0));
             let most = HIGHEST * RATIO * confined.max(modulus) * followed;
-            DefaultPenalty { value: RATIO * modulus * followed, raised: RaisedPenalty { from, most } }
+            DefaultPenalty { value: RATIO * modulus * followed, raised: RaisedPenalty { from, most }, modulus }
         };
         sides.iter().map(followed).fold(stiffest, least)
     };
-    surfaces.iter().map(of).fold(stiffest, least)
+    let softest = |sides: &&[Side]| sides.iter().map(|side| behind(side.cell).modulus).fold(f64::INFINITY, f64::min);
+    let compliance: f64 = surfaces.iter().map(softest).map(f64::recip).sum();
+    DefaultPenalty { modulus: compliance.recip(), ..surfaces.iter().map(of).fold(stiffest, least) }
 }

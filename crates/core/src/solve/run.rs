@@ -13,7 +13,7 @@ use super::problem::{Problem, largest};
 use super::rigid::free_motions;
 use super::schedule::Step;
 use super::snap::{Snap, set_free};
-use super::stability::{Look, Stability, Turn};
+use super::stability::{Look, Stability, Turn, softens};
 use crate::system::{Caution, Energies, Interpenetration, State, Unevenness, Workspace};
 use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
@@ -293,11 +293,11 @@ impl<'a> Run<'a> {
     }
 
     /// Whether an increment goes back on the way that those before it went, farther than it would have gone on and than it is driven, while
-    /// what drives it goes on: Newton's method has then come to another branch than the one that a path near it leads to, the other side of a
+    /// what drives it goes on and the stiffness falls: Newton's method has then come to another branch than the one that a path near it leads to, the other side of a
     /// column that buckles, or its straight shape beyond the Euler load.
     fn goes_back(&self, step: &Step, converged: &Converged, dt: f64) -> bool {
         let state = &self.state;
-        if state.last_dt == 0.0 || step.turns_between(state.step_time, [state.last_dt, dt]) {
+        if state.last_dt == 0.0 || !softens(state, dt) || step.turns_between(state.step_time, [state.last_dt, dt]) {
             return false;
         }
         let (mut along, mut squares, mut most) = (0.0, [0.0; 2], 0.0_f64);

@@ -250,6 +250,15 @@ impl Stability {
     }
 }
 
+/// Whether the softest mode loses so much of its stiffness, carried on over an increment, that it must be looked at.
+pub(super) fn softens(state: &State, dt: f64) -> bool {
+    let falls = |softest: &Softest| {
+        let left = softest.slope.map(|slope| softest.eigenvalue + slope * (state.time + dt - softest.time));
+        softest.step == state.step && left.is_some_and(|left| left <= KEPT * softest.eigenvalue)
+    };
+    state.softest.as_ref().is_some_and(falls)
+}
+
 /// Whether the quotient, carried on to a time, stays where it need not be looked at.
 fn passes_over(softest: &Softest, time: f64) -> bool {
     let carried = softest.slope.map(|slope| softest.eigenvalue + slope * (time - softest.time));

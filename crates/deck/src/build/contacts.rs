@@ -157,10 +157,13 @@ impl Builder<'_> {
         let loads = self.carried(keys, (surface, opposite));
         let steepest = closure(keys).ok().flatten().map(|closure| closure.steepest());
         let given = keys.penalty.or(steepest);
-        let computed = given.is_none().then(|| self.computed_penalty(keys, (surface, opposite), backings));
+        let computed = self.computed_penalty(keys, (surface, opposite), backings);
+        let modulus = computed.modulus;
+        let computed = given.is_none().then_some(computed);
         let penalty = given.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
         ContactOptions {
             penalty,
+            modulus,
             raised: computed.map(|computed| computed.raised),
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             elastic_slip: self.elastic_slip(keys),

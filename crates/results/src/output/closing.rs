@@ -187,7 +187,7 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
 }
 
 /// Change of the pressure from node to node, over the pressure, from which on it is told.
-const ROUGH: f64 = 0.12;
+const ROUGH: f64 = 0.2;
 
 /// Which contacts have a pressure that changes from node to node as none does that is resolved.
 fn rough(model: &Model, state: &State) -> Vec<String> {

@@ -6,6 +6,7 @@ use super::cover::{FEET, Landing, Patch};
 use super::face::moved;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
+use super::nearer::Nearer;
 use super::nodes::NodesInPlace;
 use super::point::{Facing, Touched};
 use super::space::{Spread, spread};
@@ -55,7 +56,7 @@ pub struct FieldAttempt<'a> {
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
     pub ahead: Vec<f64>,
     /// How much nearer a round tool in space lies than in the mean, slot by slot.
-    pub nearer: Vec<f64>,
+    pub nearer: Vec<Nearer>,
     /// Closure and slips that multipliers stand for, slot by slot.
     pub shifts: Vec<[f64; COUNT]>,
     /// How often they were improved in the attempt,
@@ -219,7 +220,7 @@ impl FieldAttempt<'_> {
     }
 
     fn nearer(&self, slot: usize) -> f64 {
-        self.nearer.get(slot).copied().unwrap_or_default()
+        self.nearer[slot].now
     }
 
     /// How much deeper an open node must lie for the law to answer as for a closed one, where the first guess holds it closed: it was
@@ -512,7 +513,7 @@ impl Attempt for FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
-        if self.yield_tips(u) {
+        if self.yield_tips(u) || self.flatten(new) {
             return Ok(true);
         }
         let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(self.stiffen(new, taken)) };
@@ -576,6 +577,15 @@ impl FieldAttempt<'_> {
             }
         }
         changed
+    }
+
+    /// Makes less what is added to the penetration of nodes by what they bear in a converged state, and says whether it did.
+    fn flatten(&mut self, new: &History) -> bool {
+        let mut less = false;
+        for (slot, nearer) in self.nearer.iter_mut().enumerate().filter(|(_, nearer)| nearer.now > self.contact.least) {
+            less |= nearer.lessen(new.slot(slot)[entry::PRESSURE]);
+        }
+        less
     }
 
     /// Lists the stencils of all nodes at unknowns `u`.

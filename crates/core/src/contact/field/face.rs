@@ -112,7 +112,7 @@ impl FieldFace {
     }
 
     /// Whether its nodes lie off the face of first degree between its corners, before any motion.
-    fn is_curved(&self, mesh: &Mesh) -> bool {
+    pub fn is_curved(&self, mesh: &Mesh) -> bool {
         let rest = self.at_rest(mesh);
         let x = rest.nodes();
         let off = |k: usize| {

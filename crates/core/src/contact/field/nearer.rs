@@ -8,7 +8,9 @@
 //!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
 //! the mean gap is nearer to that of the curved surface: around a node of a third row no other has a larger gap, and nothing is added to
-//! it and to those beside it. It is found at the beginning of an increment, from the accepted state, and constant over it: forces keep a
+//! it and to those beside it. What bears flattens: of the mean gap that much is left as the approach takes that a contact narrower than a
+//! face has and the mesh does not resolve, which is all of it where the contact is four fifths of a face wide (Hertz). Nor is it to curved faces of second degree, whose nodes all carry the field: what their mean gap lets in is about
+//! what the mesh does not resolve of the flattening. It is found at the beginning of an increment, from the accepted state, and constant over it: forces keep a
 //! potential. What pressures do over its change from one increment to the next is accounted as supplied.
 
 use super::configuration::{Configuration, TargetInPlace};
@@ -30,6 +32,13 @@ const CENTRE: f64 = 2.0 / 3.0;
 const BESIDE: f64 = 2.0;
 /// Edges from a node that has no larger gaps around it to what it has nothing added.
 const ROWS: usize = 2;
+/// Square of the half width of a contact over that of a face from which on nothing is added: of a ball the approach `a^2 / R` is then the
+/// `h^2 / 6 R` of the mean gap, and of a cylinder `a^2 ln(h / a) / R` about its `h^2 / 12 R`.
+const WIDE: f64 = 1.0 / 6.0;
+/// Multiple of that from which on nothing will be.
+const SURELY: f64 = 2.0;
+/// Part of how much nearer the target is, by more than which what is added must be less for a converged increment to go on with that.
+const LESS: f64 = 0.2;
 /// Places along each half edge at which the gap is looked at.
 const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 
@@ -37,13 +46,13 @@ impl Configuration<'_> {
     /// For each slot of an accepted configuration how much nearer the target is than in the mean, if its gap is no larger than `far`. Nothing over
     /// tools in the plane, which have tips, and dual functions where they are straight, nor where a surface folds onto itself. `depths` are
     /// those of its faces.
-    pub(super) fn nearer(&self, history: &History, (far, depths): (f64, &[f64])) -> Vec<f64> {
+    pub(super) fn nearer(&self, history: &History, (far, depths): (f64, &[f64])) -> Vec<Nearer> {
         let (contact, surface) = (self.contact, &self.contact.parts.surface);
         let mean = |slot: usize| {
             let values = history.slot(slot);
             (values[entry::SEGMENT] >= 0.0).then(|| -values[entry::PENETRATION])
         };
-        let mut nearer = vec![0.0; contact.slots()];
+        let mut nearer = vec![Nearer::default(); contact.slots()];
         if contact.roles.itself || surface.plane && matches!(self.target, TargetInPlace::Tool(_)) {
             return nearer;
         }
@@ -70,24 +79,36 @@ impl Configuration<'_> {
             }
             // A surface that folds, slides or spreads onto a flat tool or a body touches it beside what bears already.
             let follows = |node: usize| !contact.is_round(piece) && !closed(node) && bears[node] > 0.0;
-            let near =
-                |&node: &usize| straight[node] > 0.0 && gap(node).is_some_and(|gap| gap <= far) && !follows(node);
+            let curved = |node: usize| {
+                let mut faces = surface.nodes[node].support.iter().map(|&(face, _)| &surface.faces[face]);
+                faces.any(|face| face.is_curved(&contact.parts.mesh))
+            };
+            let near = |&node: &usize| {
+                let close = straight[node] > 0.0 && gap(node).is_some_and(|gap| gap <= far);
+                close && !follows(node) && !curved(node)
+            };
             for node in (0..surface.nodes.len()).filter(near) {
-                let Some((least, most)) = self.least(node, piece, (far, depths)) else { continue };
-                let more = gap(node).map_or(0.0, |gap| gap - least).min(most);
+                let Some(around) = self.around(node, piece, (far, depths)) else { continue };
+                let more = gap(node).map_or(0.0, |gap| gap - around.least).min(MOST * around.range);
                 if more > 0.0 {
-                    let (slot, added) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
-                    // What bears is not pushed any farther.
-                    nearer[slot] = if closed(node) { added.min(history.slot(slot)[entry::NEARER]) } else { added };
+                    let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
+                    let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * around.range);
+                    let mut found = Nearer { most, much: LESS * more, scale, round: around.round, now: 0.0 };
+                    found.now = found.under(history.slot(slot)[entry::PRESSURE]);
+                    if closed(node) {
+                        // What bears is not pushed any farther.
+                        found.now = found.now.min(history.slot(slot)[entry::NEARER]);
+                    }
+                    nearer[slot] = found;
                 }
             }
         }
         nearer
     }
 
-    /// The least gap of a piece over the half faces around a node, and the most that this may be less than the mean. What leans against
-    /// a flat tool or a body does not touch it with the node: the least gap is then of what is left by the linear one.
-    fn least(&self, node: usize, piece: usize, (far, depths): (f64, &[f64])) -> Option<(f64, f64)> {
+    /// The gaps of a piece around a node. What leans against a flat tool or a body does not touch it with the node: the least gap is then of
+    /// what is left by the linear one.
+    fn around(&self, node: usize, piece: usize, (far, depths): (f64, &[f64])) -> Option<Around> {
         let support = &self.contact.parts.surface.nodes[node].support;
         let (mut within, mut gaps, mut half, mut center) = (0.0, Vec::new(), Vec::new(), Vec3::zero());
         let part = (support.len() as f64).recip();
@@ -100,14 +121,14 @@ impl Configuration<'_> {
                     gaps.push(gap);
                 }
             }
-            within += WITHIN * part * beyond_linear(&gaps[begin..]).1;
+            within += WITHIN * part * beyond_linear(&gaps[begin..]).range;
             let [own, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
             center += (own + (middle - own) * CENTRE) * part;
         }
-        let (slope, range) = beyond_linear(&gaps);
-        let leans = |gap: &Gap| if self.contact.is_round(piece) { 0.0 } else { slope.dot(gap.x - center) };
+        let Beyond { slope, range, round } = beyond_linear(&gaps);
+        let leans = |gap: &PlaceGap| if self.contact.is_round(piece) { 0.0 } else { slope.dot(gap.x - center) };
         let least = half.iter().map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
-        least.is_finite().then_some((least, MOST * range.max(within)))
+        least.is_finite().then_some(Around { least, range: range.max(within), round })
     }
 
     /// A place of a face, and the gap of a piece there.
@@ -116,13 +137,13 @@ impl Configuration<'_> {
         (face, number): (&FaceInPlace, usize),
         xi: [f64; 2],
         (piece, range): (usize, [f64; 2]),
-    ) -> Option<Gap> {
+    ) -> Option<PlaceGap> {
         let at = face.at(xi);
         let (x, n) = (at.x, at.normal.unit());
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
-                foot.beyond.is_none().then_some(Gap { x, n: foot.normal, gap: foot.gap })
+                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap })
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
@@ -130,15 +151,65 @@ impl Configuration<'_> {
                     let faces_it = -hit.normal().dot(ray.n) > LEAST_COSINE;
                     faces_it && self.contact.piece_of(other) == piece && self.contact.may_touch(number, other)
                 };
-                faces.nearest(&ray, range, admits).map(|(_, hit)| Gap { x, n, gap: hit.gap })
+                faces.nearest(&ray, range, admits).map(|(_, hit)| PlaceGap { x, n, gap: hit.gap })
             }
         }
     }
 }
 
-/// The gap at a place of the surface.
+/// How much nearer a target lies to the faces around a node than in the mean.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Nearer {
+    /// How much is added to the penetration,
+    pub now: f64,
+    /// and where nothing bears,
+    most: f64,
+    /// by more than how much it must be less for a converged increment to go on.
+    much: f64,
+    /// Half width of a contact over that of a face, its square for a unit of pressure and a cylinder but for a factor.
+    scale: f64,
+    /// How nearly round the gap is: one under a ball, zero under a cylinder.
+    round: f64,
+}
+
+impl Nearer {
+    /// What is added where the node bears a pressure.
+    fn under(&self, pressure: f64) -> f64 {
+        self.most * (1.0 - self.width(pressure)).max(0.0)
+    }
+
+    /// Square of the half width of a contact that bears a pressure, over that from which on nothing is added (Hertz: `a^2 = 4 P' R / pi E*`
+    /// under a cylinder, `a^3 = 3 F R / 4 E*` under a ball).
+    fn width(&self, pressure: f64) -> f64 {
+        let bears = (pressure * self.scale).max(0.0);
+        let [cylinder, ball] = [4.0 / std::f64::consts::PI * bears, (1.5 * bears).powf(2.0 / 3.0)];
+        ((1.0 - self.round) * cylinder + self.round * ball) / WIDE
+    }
+
+    /// Goes to what is left under a pressure where that is much less, and says whether it did: halfway, since the pressure falls with it, but
+    /// for a contact so wide that nothing will be left.
+    pub fn lessen(&mut self, pressure: f64) -> bool {
+        let left = self.under(pressure);
+        let much = self.now - left > self.much;
+        if much {
+            self.now = if self.width(pressure) > SURELY { 0.0 } else { 0.5 * (self.now + left) };
+        }
+        much
+    }
+}
+
+/// The gaps around a node.
+struct Around {
+    /// The least over the half faces.
+    least: f64,
+    /// The range of what a linear gap leaves, and how nearly round that is.
+    range: f64,
+    round: f64,
+}
+
+/// The distance at a place of the surface.
 #[derive(Clone, Copy)]
-struct Gap {
+struct PlaceGap {
     x: Vec3,
     /// Its direction.
     n: Vec3,
@@ -163,13 +234,21 @@ fn places<'a>(face: &'a FaceInPlace, corner: usize) -> impl Iterator<Item = (boo
     })
 }
 
-/// The slope of the linear function along the surface that is nearest to gaps at places, with their normals, and the range of what it leaves.
-fn beyond_linear(gaps: &[Gap]) -> (Vec3, f64) {
+/// What the linear function along the surface that is nearest to gaps at places leaves of them.
+struct Beyond {
+    slope: Vec3,
+    range: f64,
+    /// How it bends along two directions, the less over the more.
+    round: f64,
+}
+
+/// The linear function along the surface that is nearest to gaps at places, with their normals, and what it leaves.
+fn beyond_linear(gaps: &[PlaceGap]) -> Beyond {
     let part = (gaps.len() as f64).recip();
-    let [middle, normal] = [|gap: &Gap| gap.x, |gap: &Gap| gap.n]
+    let [middle, normal] = [|gap: &PlaceGap| gap.x, |gap: &PlaceGap| gap.n]
         .map(|of| gaps.iter().fold(Vec3::zero(), |sum, gap| sum + of(gap)) * part);
     let (mean, n) = (gaps.iter().map(|gap| gap.gap).sum::<f64>() * part, normal.unit());
-    let along = |gap: &Gap| {
+    let along = |gap: &PlaceGap| {
         let x = gap.x - middle;
         x - n * n.dot(x)
     };
@@ -191,10 +270,22 @@ fn beyond_linear(gaps: &[Gap]) -> (Vec3, f64) {
     let det = a * c - b * b;
     let slopes = if c > 0.0 && det > 0.0 { [(c * p - b * q) / det, (a * q - b * p) / det] } else { [p / a, 0.0] };
     let slope = axes[0] * slopes[0] + axes[1] * slopes[1];
-    let left = gaps.iter().map(|gap| gap.gap - mean - slope.dot(along(gap)));
-    let [least, most] =
-        left.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], left| [least.min(left), most.max(left)]);
-    if most > least { (slope, most - least) } else { (Vec3::zero(), 0.0) }
+    let left = |gap: &PlaceGap| gap.gap - mean - slope.dot(along(gap));
+    let extent = |[least, most]: [f64; 2], left: f64| [least.min(left), most.max(left)];
+    let [least, most] = gaps.iter().map(left).fold([f64::INFINITY, f64::NEG_INFINITY], extent);
+    if !(most > least) {
+        return Beyond { slope: Vec3::zero(), range: 0.0, round: 0.0 };
+    }
+    // How it bends, by its moments with the products of both coordinates; of these the principal values.
+    let bend = |[a, b]: [Vec3; 2]| -> f64 {
+        let product = |gap: &PlaceGap| a.dot(along(gap)) * b.dot(along(gap));
+        let middle = gaps.iter().map(product).sum::<f64>() * part;
+        gaps.iter().map(|gap| (product(gap) - middle) * left(gap)).sum()
+    };
+    let [first, mixed, second] = [[0, 0], [0, 1], [1, 1]].map(|pair| bend(pair.map(|i: usize| axes[i])));
+    let (mean, half) = (0.5 * (first + second), (0.5 * (first - second)).hypot(mixed));
+    let round = if mean > half { (mean - half) / (mean + half) } else { 0.0 };
+    Beyond { slope, range: most - least, round }
 }
 
 /// Part of the size of places across which they have no width.

@@ -350,35 +350,6 @@ fn press_fit([shaft, hub]: [&str; 2], [inner, outer]: [f64; 2]) -> String {
 
 /// Between thin rings of second degree that do not match the pressure goes up and down by half, and its largest is half as much too high;
 /// between rings that match, and of twice as many cells, it does not.
-/// A block lifted off another in a single increment, and put back in one.
-#[test]
-fn what_parts_in_one_increment_is_not_doubted() {
-    let lifted = r#"
-version = 1
-space = "plane-strain"
-mesh.part.a.rectangle = { from = [0.0, 0.0], to = [4.0, 1.0], cells = [9, 3], cell = "quad8" }
-mesh.part.b.rectangle = { from = [1.0, 1.0], to = [3.0, 2.0], cells = [5, 3], cell = "quad4" }
-material.soft.elastic = { young = 1000.0, poisson = 0.3 }
-body.a.material = "soft"
-body.b.material = "soft"
-contact.joint = { surface = "b.bottom", target = "a.top", law.coulomb = { friction = 0.3 } }
-[[step]]
-name = "press"
-displacement."a.bottom" = { x = 0.0, y = 0.0 }
-displacement."b.top" = { x = 0.0, y = -0.02 }
-[[step]]
-name = "lift"
-increments.count = 1
-displacement."b.top" = { y = 3.0 }
-[[step]]
-name = "put back"
-increments.count = 1
-displacement."b.top" = { y = -0.02 }
-"#;
-    let run = Run::of(lifted, &[]);
-    assert_eq!(run.code(), 0, "{}\n{}", run.error(), run.notes());
-}
-
 /// A ball whose facets are long beside the contact, and short in it: the force is right to a thousandth.
 #[test]
 fn facets_outside_a_contact_are_no_fit() {

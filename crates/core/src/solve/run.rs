@@ -185,7 +185,7 @@ impl<'a> Run<'a> {
                         wanted = 0.5 * dt;
                         continue;
                     }
-                    let may_return = returns < RETURNS && !relaxing && step.arc_length.is_none() && step.may_halve(dt);
+                    let may_return = returns < RETURNS && !relaxing && step.may_halve(dt) && self.is_of_bodies(step);
                     if may_return && self.goes_back(step, &converged, dt) {
                         record.failure =
                             Some("it goes back on the way that the increments before it went, as no path does".into());
@@ -290,6 +290,12 @@ impl<'a> Run<'a> {
         let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
         let moved = converged.u[..nodes].iter().zip(&self.state.u).map(|(now, before)| now - before);
         newton::largest(moved) > ASTRAY * self.problem.size
+    }
+
+    /// Whether a step follows loads or motions by increments in which no contact bears: what that holds may let go, and snap to and fro.
+    fn is_of_bodies(&self, step: &Step) -> bool {
+        let mut terms = self.problem.terms.iter().zip(&self.state.energies);
+        step.arc_length.is_none() && !terms.any(|(term, energies)| term.bends() && energies.stored > 0.0)
     }
 
     /// Whether an increment goes back on the way that those before it went, farther than it would have gone on and than it is driven, while
@@ -506,8 +512,6 @@ impl<'a> Run<'a> {
         if now.abs() > before.abs() {
             let part = if touches_first(self.problem, state, &evaluation.energies) { 1.0 } else { CUBIC };
             state.unresolved_work += 0.5 * part * (now - before).abs();
-        } else if parts(self.problem, state, &evaluation.energies) {
-            state.unresolved_work += 0.5 * (before - now).abs();
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
@@ -566,12 +570,6 @@ fn touches_first(problem: &Problem, state: &State, energies: &[Energies]) -> boo
     let closes = all.any(|(term, (before, now))| term.bends() && before.stored == 0.0 && now.stored > 0.0);
     let places = (0..state.u.len()).filter(|&dof| !problem.dofs.is_rotation(dof));
     closes && newton::largest(places.map(|dof| state.last_change[dof])) <= CLOSE * problem.cell_size
-}
-
-/// Whether a contact that bore bears nothing with these energies: it may have parted at any place of the way.
-fn parts(problem: &Problem, state: &State, energies: &[Energies]) -> bool {
-    let mut all = problem.terms.iter().zip(state.energies.iter().zip(energies));
-    all.any(|(term, (before, now))| term.bends() && before.stored > 0.0 && now.stored == 0.0)
 }
 
 /// Energy that came from outside and that no term has taken up.

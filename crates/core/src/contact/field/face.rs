@@ -111,8 +111,13 @@ impl FieldFace {
         parts.into_iter().map(move |part| Self { part, ..self.clone() })
     }
 
+    /// Whether it is one of the parts of a curved face in space.
+    pub fn is_piece(&self) -> bool {
+        matches!(self.part, SidePart::Piece(_))
+    }
+
     /// Whether its nodes lie off the face of first degree between its corners, before any motion.
-    pub fn is_curved(&self, mesh: &Mesh) -> bool {
+    fn is_curved(&self, mesh: &Mesh) -> bool {
         let rest = self.at_rest(mesh);
         let x = rest.nodes();
         let off = |k: usize| {

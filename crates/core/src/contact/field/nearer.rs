@@ -8,10 +8,14 @@
 //!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
 //! the mean gap is nearer to that of the curved surface: around a node of a third row no other has a larger gap, and nothing is added to
-//! it and to those beside it. What bears flattens: of the mean gap that much is left as the approach takes that a contact narrower than a
-//! face has and the mesh does not resolve, which is all of it where the contact is four fifths of a face wide (Hertz). Nor is it to curved faces of second degree, whose nodes all carry the field: what their mean gap lets in is about
-//! what the mesh does not resolve of the flattening. It is found at the beginning of an increment, from the accepted state, and constant over it: forces keep a
-//! potential. What pressures do over its change from one increment to the next is accounted as supplied.
+//! it and to those beside it. Nor is it to curved faces of second degree, whose nodes all carry the field.
+//!
+//! What bears flattens. A contact narrower than a face has an approach that the mesh does not resolve, about that of Hertz; what it takes is no
+//! longer added, and nothing is where the contact is four fifths of a face wide. Between bulky bodies that is so almost from the beginning,
+//! between slender ones hardly at all.
+//!
+//! It is found at the beginning of an increment, from the accepted state, made less once one has converged, and constant within the
+//! iterations: forces keep a potential. What pressures do over its change from one increment to the next is accounted as supplied.
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::cover::FaceInPlace;
@@ -56,6 +60,7 @@ impl Configuration<'_> {
         if contact.roles.itself || surface.plane && matches!(self.target, TargetInPlace::Tool(_)) {
             return nearer;
         }
+        let mut seen = LookedAt::default();
         for piece in 0..contact.pieces {
             let gap = |node: usize| mean(contact.slot(node, piece));
             // By how much farther from the target than a node one of those around it is, and the least of that up to two edges away.
@@ -79,16 +84,14 @@ impl Configuration<'_> {
             }
             // A surface that folds, slides or spreads onto a flat tool or a body touches it beside what bears already.
             let follows = |node: usize| !contact.is_round(piece) && !closed(node) && bears[node] > 0.0;
-            let curved = |node: usize| {
-                let mut faces = surface.nodes[node].support.iter().map(|&(face, _)| &surface.faces[face]);
-                faces.any(|face| face.is_curved(&contact.parts.mesh))
-            };
+            let curved =
+                |node: usize| surface.nodes[node].support.iter().any(|&(face, _)| surface.faces[face].is_piece());
             let near = |&node: &usize| {
                 let close = straight[node] > 0.0 && gap(node).is_some_and(|gap| gap <= far);
                 close && !follows(node) && !curved(node)
             };
             for node in (0..surface.nodes.len()).filter(near) {
-                let Some(around) = self.around(node, piece, (far, depths)) else { continue };
+                let Some(around) = self.around(node, piece, (far, depths), &mut seen) else { continue };
                 let more = gap(node).map_or(0.0, |gap| gap - around.least).min(MOST * around.range);
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
@@ -108,9 +111,17 @@ impl Configuration<'_> {
 
     /// The gaps of a piece around a node. What leans against a flat tool or a body does not touch it with the node: the least gap is then of
     /// what is left by the linear one.
-    fn around(&self, node: usize, piece: usize, (far, depths): (f64, &[f64])) -> Option<Around> {
+    fn around(
+        &self,
+        node: usize,
+        piece: usize,
+        (far, depths): (f64, &[f64]),
+        LookedAt { gaps, half }: &mut LookedAt,
+    ) -> Option<Around> {
         let support = &self.contact.parts.surface.nodes[node].support;
-        let (mut within, mut gaps, mut half, mut center) = (0.0, Vec::new(), Vec::new(), Vec3::zero());
+        let (mut within, mut center) = (0.0, Vec3::zero());
+        gaps.clear();
+        half.clear();
         let part = (support.len() as f64).recip();
         for &(number, corner) in support {
             let (begin, face) = (gaps.len(), self.face(number));
@@ -125,7 +136,7 @@ impl Configuration<'_> {
             let [own, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
             center += (own + (middle - own) * CENTRE) * part;
         }
-        let Beyond { slope, range, round } = beyond_linear(&gaps);
+        let Beyond { slope, range, round } = beyond_linear(gaps);
         let leans = |gap: &PlaceGap| if self.contact.is_round(piece) { 0.0 } else { slope.dot(gap.x - center) };
         let least = half.iter().map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
         least.is_finite().then_some(Around { least, range: range.max(within), round })
@@ -196,6 +207,13 @@ impl Nearer {
         }
         much
     }
+}
+
+/// The gaps that were found around a node, and of these those over its half faces.
+#[derive(Default)]
+struct LookedAt {
+    gaps: Vec<PlaceGap>,
+    half: Vec<PlaceGap>,
 }
 
 /// The gaps around a node.
@@ -273,7 +291,8 @@ fn beyond_linear(gaps: &[PlaceGap]) -> Beyond {
     let left = |gap: &PlaceGap| gap.gap - mean - slope.dot(along(gap));
     let extent = |[least, most]: [f64; 2], left: f64| [least.min(left), most.max(left)];
     let [least, most] = gaps.iter().map(left).fold([f64::INFINITY, f64::NEG_INFINITY], extent);
-    if !(most > least) {
+    let range = most - least;
+    if range.is_nan() || range <= 0.0 {
         return Beyond { slope: Vec3::zero(), range: 0.0, round: 0.0 };
     }
     // How it bends, by its moments with the products of both coordinates; of these the principal values.
@@ -285,7 +304,7 @@ fn beyond_linear(gaps: &[PlaceGap]) -> Beyond {
     let [first, mixed, second] = [[0, 0], [0, 1], [1, 1]].map(|pair| bend(pair.map(|i: usize| axes[i])));
     let (mean, half) = (0.5 * (first + second), (0.5 * (first - second)).hypot(mixed));
     let round = if mean > half { (mean - half) / (mean + half) } else { 0.0 };
-    Beyond { slope, range: most - least, round }
+    Beyond { slope, range, round }
 }
 
 /// Part of the size of places across which they have no width.

@@ -36,10 +36,7 @@ const CENTRE: f64 = 2.0 / 3.0;
 const BESIDE: f64 = 2.0;
 /// Edges from a node that has no larger gaps around it to what it has nothing added.
 const ROWS: usize = 2;
-/// Square of the half width of a contact over that of a face from which on nothing is added: of a ball the approach `a^2 / R` is then the
-/// `h^2 / 6 R` of the mean gap, and of a cylinder `a^2 ln(h / a) / R` about its `h^2 / 12 R`.
-const WIDE: f64 = 1.0 / 6.0;
-/// Multiple of that from which on nothing will be.
+/// Approach that the mesh does not resolve over the mean gap, from which on nothing will be added: from one on nothing is.
 const SURELY: f64 = 2.0;
 /// Part of how much nearer the target is, by more than which what is added must be less for a converged increment to go on with that.
 const LESS: f64 = 0.2;
@@ -186,15 +183,17 @@ pub struct Nearer {
 impl Nearer {
     /// What is added where the node bears a pressure.
     fn under(&self, pressure: f64) -> f64 {
-        self.most * (1.0 - self.width(pressure)).max(0.0)
+        self.most * (1.0 - self.approach(pressure)).max(0.0)
     }
 
-    /// Square of the half width of a contact that bears a pressure, over that from which on nothing is added (Hertz: `a^2 = 4 P' R / pi E*`
-    /// under a cylinder, `a^3 = 3 F R / 4 E*` under a ball).
-    fn width(&self, pressure: f64) -> f64 {
+    /// The approach that the mesh does not resolve of a contact that bears a pressure, over the mean gap: of a ball `a^2 / R` over `h^2 / 6 R`
+    /// with `a^3 = 3 F R / 4 E*`, of a cylinder `a^2 ln(h / a) / 2 R` over `h^2 / 12 R` with `a^2 = 4 P' R / pi E*` (Hertz; Johnson 1985).
+    fn approach(&self, pressure: f64) -> f64 {
         let bears = (pressure * self.scale).max(0.0);
+        // `a^2 / h^2` of both; past the largest of the logarithm a contact is wider than what it is for.
         let [cylinder, ball] = [4.0 / std::f64::consts::PI * bears, (1.5 * bears).powf(2.0 / 3.0)];
-        ((1.0 - self.round) * cylinder + self.round * ball) / WIDE
+        let log = if cylinder > 0.0 { (-cylinder.ln()).max(1.0) } else { 0.0 };
+        (1.0 - self.round) * 3.0 * cylinder * log + self.round * 6.0 * ball
     }
 
     /// Goes to what is left under a pressure where that is much less, and says whether it did: halfway, since the pressure falls with it, but
@@ -203,7 +202,7 @@ impl Nearer {
         let left = self.under(pressure);
         let much = self.now - left > self.much;
         if much {
-            self.now = if self.width(pressure) > SURELY { 0.0 } else { 0.5 * (self.now + left) };
+            self.now = if self.approach(pressure) > SURELY { 0.0 } else { 0.5 * (self.now + left) };
         }
         much
     }

@@ -190,9 +190,9 @@ impl Nearer {
     /// with `a^3 = 3 F R / 4 E*`, of a cylinder `a^2 ln(h / a) / 2 R` over `h^2 / 12 R` with `a^2 = 4 P' R / pi E*` (Hertz; Johnson 1985).
     fn approach(&self, pressure: f64) -> f64 {
         let bears = (pressure * self.scale).max(0.0);
-        // `a^2 / h^2` of both; past the largest of the logarithm a contact is wider than what it is for.
+        // `a^2 / h^2` of both; the logarithm is for contacts that are narrow in a face.
         let [cylinder, ball] = [4.0 / std::f64::consts::PI * bears, (1.5 * bears).powf(2.0 / 3.0)];
-        let log = if cylinder > 0.0 { (-cylinder.ln()).max(1.0) } else { 0.0 };
+        let log = if cylinder > 0.0 { (-cylinder.ln()).max(2.0) } else { 0.0 };
         (1.0 - self.round) * 3.0 * cylinder * log + self.round * 6.0 * ball
     }
 

@@ -4,15 +4,23 @@ mod support;
 
 use support::{columns, model, run};
 
-/// A quarter of a bar on two rollers, bent by a third in its middle by three tenths: stiff beside what a face would let the rollers in.
-fn bending(cell: &str, roller: f64) -> f64 {
-    let deck = format!(
+/// A bar of four cells over its depth in space.
+fn bar(cell: &str) -> String {
+    format!(
         r#"
 version = 1
 space = "solid"
 mesh.part.bar.box = {{ from = [0.0, 0.0, 0.0], to = [50.0, 10.0, 5.0], cells = [20, 4, 2], cell = "{cell}" }}
 material.steel.elastic = {{ young = 200e3, poisson = 0.3 }}
 body.bar.material = "steel"
+"#
+    )
+}
+
+/// A quarter of a bar on two rollers, bent by a third in its middle by three tenths: stiff beside what a face would let the rollers in.
+fn bending(cell: &str, roller: f64) -> f64 {
+    let deck = format!(
+        r#"
 tool.punch.cylinder = {{ from = [0.0, 15.0, -10.0], to = [0.0, 15.0, 15.0], radius = 5.0 }}
 tool.roller.cylinder = {{ from = [{roller}, -5.0, -10.0], to = [{roller}, -5.0, 15.0], radius = 5.0 }}
 contact.punch = {{ surface = "bar.top", target = "punch", law.frictionless = {{}} }}
@@ -24,7 +32,7 @@ displacement."bar.back" = {{ z = 0.0 }}
 motion.punch = {{ y = -0.3 }}
 "#
     );
-    last(&deck, "tool.punch.force.y").abs()
+    last(&(bar(cell) + &deck), "tool.punch.force.y").abs()
 }
 
 fn last(deck: &str, column: &str) -> f64 {
@@ -135,12 +143,8 @@ pressure."plate.top" = {{ value = 0.02, kind = "dead" }}
 /// What a bar is drawn in a roller by, between its nodes where their mean gap is open, goes over the step, as every overlap does.
 #[test]
 fn an_overlap_within_a_face_is_removed_over_the_step() {
-    let deck = r#"
-version = 1
-space = "solid"
-mesh.part.bar.box = { from = [0.0, 0.0, 0.0], to = [50.0, 10.0, 5.0], cells = [20, 4, 2], cell = "hex8" }
-material.steel.elastic = { young = 200e3, poisson = 0.3 }
-body.bar.material = "steel"
+    let deck = bar("hex8")
+        + r#"
 tool.roller.cylinder = { from = [40.0, -4.95, -10.0], to = [40.0, -4.95, 15.0], radius = 5.0 }
 contact.roller = { surface = "bar.bottom", target = "roller", law.frictionless = {} }
 [[step]]
@@ -148,7 +152,7 @@ increments.count = 4
 displacement."bar.left" = { x = 0.0, y = 0.0, z = 0.0 }
 displacement."bar.back" = { z = 0.0 }
 "#;
-    let model = model(deck, &[]);
+    let model = model(&deck, &[]);
     let forces = columns(&model, &run(&model))["contact.roller.force.y"].clone();
     for (increment, force) in forces.iter().enumerate() {
         let part = force / forces[3] - (increment + 1) as f64 / 4.0;

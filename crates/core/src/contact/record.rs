@@ -56,7 +56,7 @@ pub mod entry {
     pub const UNBENT: usize = 23;
     /// and of those of second degree by how near the contact is to sliding.
     pub const AT_REST: usize = 24;
-    /// How much nearer a round tool in space lies than in the mean.
+    /// How much nearer the target lies than in the mean, so far as that is added to the penetration.
     pub const NEARER: usize = 25;
     /// Number of these values.
     pub const COUNT: usize = 26;

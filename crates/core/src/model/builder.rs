@@ -369,17 +369,15 @@ impl Names<'_> {
         };
         let surfaces: Vec<&[Side]> = std::iter::once(surface).chain(others).collect();
         let computed = default_penalty((mesh, *space), &surfaces, |cell| backings[cell]);
-        let modulus = computed.modulus;
-        let computed = contact.penalty.is_none().then_some(computed);
-        let penalty = contact.penalty.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
+        let penalty = contact.penalty.unwrap_or(computed.value);
         if !(penalty > 0.0 && penalty.is_finite() && contact.elastic_slip > 0.0) {
             found.push(format!("contact '{}': penalty and elastic slip must be positive", contact.name));
         }
         let slides = contact.law.first().sliding_stress(1.0).is_some();
         let options = ContactOptions {
             penalty,
-            modulus,
-            raised: computed.map(|computed| computed.raised),
+            modulus: computed.modulus,
+            raised: contact.penalty.is_none().then_some(computed.raised),
             tangential_penalty: penalty,
             elastic_slip: (slides && contact.augmentation.is_none()).then_some(contact.elastic_slip),
             thickness: *thickness,

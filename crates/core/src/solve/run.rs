@@ -185,7 +185,8 @@ impl<'a> Run<'a> {
                         wanted = 0.5 * dt;
                         continue;
                     }
-                    let may_return = returns < RETURNS && !relaxing && step.may_halve(dt) && self.is_of_bodies(step);
+                    let follows = !relaxing && step.arc_length.is_none() && !self.contact_bears();
+                    let may_return = returns < RETURNS && follows && step.may_halve(dt);
                     if may_return && self.goes_back(step, &converged, dt) {
                         record.failure =
                             Some("it goes back on the way that the increments before it went, as no path does".into());
@@ -203,7 +204,7 @@ impl<'a> Run<'a> {
                         continue;
                     }
                     if converged.held.is_empty() {
-                        let before = (self.state.signs, self.state.softest.clone());
+                        let before = may_return.then(|| (self.state.signs, self.state.softest.clone()));
                         let look = Look {
                             problem: self.problem,
                             record: &record,
@@ -214,7 +215,7 @@ impl<'a> Run<'a> {
                         };
                         record.turn = self.stability.look(&mut self.state, look);
                         let crosses = |turn: &Turn| turn.crosses(&self.state, (&converged.u, dt), self.problem.size);
-                        if may_return && record.turn.as_ref().is_some_and(crosses) {
+                        if let Some(before) = before.filter(|_| record.turn.as_ref().is_some_and(crosses)) {
                             (self.state.signs, self.state.softest) = before;
                             self.stability.forget_last();
                             (record.turn, record.failure) =
@@ -292,10 +293,10 @@ impl<'a> Run<'a> {
         newton::largest(moved) > ASTRAY * self.problem.size
     }
 
-    /// Whether a step follows loads or motions by increments in which no contact bears: what that holds may let go, and snap to and fro.
-    fn is_of_bodies(&self, step: &Step) -> bool {
+    /// Whether a contact bears in the accepted state: what it holds may let go, and snap to and fro.
+    fn contact_bears(&self) -> bool {
         let mut terms = self.problem.terms.iter().zip(&self.state.energies);
-        step.arc_length.is_none() && !terms.any(|(term, energies)| term.bends() && energies.stored > 0.0)
+        terms.any(|(term, energies)| term.bends() && energies.stored > 0.0)
     }
 
     /// Whether an increment goes back on the way that those before it went, farther than it would have gone on and than it is driven, while

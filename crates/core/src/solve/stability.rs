@@ -253,7 +253,7 @@ impl Stability {
 /// Whether the softest mode loses so much of its stiffness, carried on over an increment, that it must be looked at.
 pub(super) fn softens(state: &State, dt: f64) -> bool {
     let falls = |softest: &Softest| {
-        let left = softest.slope.map(|slope| softest.eigenvalue + slope * (state.time + dt - softest.time));
+        let left = softest.carried(state.time + dt);
         softest.step == state.step && left.is_some_and(|left| left <= KEPT * softest.eigenvalue)
     };
     state.softest.as_ref().is_some_and(falls)
@@ -261,8 +261,7 @@ pub(super) fn softens(state: &State, dt: f64) -> bool {
 
 /// Whether the quotient, carried on to a time, stays where it need not be looked at.
 fn passes_over(softest: &Softest, time: f64) -> bool {
-    let carried = softest.slope.map(|slope| softest.eigenvalue + slope * (time - softest.time));
-    softest.passed < PASSED && carried.is_some_and(|carried| carried / softest.eigenvalue > KEPT)
+    softest.passed < PASSED && softest.carried(time).is_some_and(|carried| carried / softest.eigenvalue > KEPT)
 }
 
 /// The eigenvector nearest to the null space by inverse iterations, and its eigenvalue; none where they lead nowhere.

@@ -130,6 +130,10 @@ impl Softest {
     pub fn slope_to(&self, (step, time): (usize, f64), eigenvalue: f64) -> Option<f64> {
         (step == self.step && time > self.time).then(|| (eigenvalue - self.eigenvalue) / (time - self.time))
     }
+    /// The quotient at a time, carried on as it changed last.
+    pub fn carried(&self, time: f64) -> Option<f64> {
+        self.slope.map(|slope| self.eigenvalue + slope * (time - self.time))
+    }
 }
 
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.

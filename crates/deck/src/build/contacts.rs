@@ -106,8 +106,9 @@ impl Builder<'_> {
         let (mesh, dofs, space) = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
-        let options = self.options(keys, (surface, opposite), backings);
-        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings).value);
+        let computed = self.computed_penalty(keys, (surface, opposite), backings);
+        let options = self.options(keys, (surface, opposite), computed);
+        self.check_penalties(name, keys, computed.value);
         self.check_elastic_slip(keys, &options);
         if !self.check_passes(name, keys, (surface, opposite)) || !self.check_points(keys) {
             return None;
@@ -152,19 +153,16 @@ impl Builder<'_> {
         &self,
         keys: &keys::Contact,
         (surface, opposite): (&[Side], Opposite),
-        backings: &[Backing],
+        computed: DefaultPenalty,
     ) -> ContactOptions {
         let loads = self.carried(keys, (surface, opposite));
         let steepest = closure(keys).ok().flatten().map(|closure| closure.steepest());
         let given = keys.penalty.or(steepest);
-        let computed = self.computed_penalty(keys, (surface, opposite), backings);
-        let modulus = computed.modulus;
-        let computed = given.is_none().then_some(computed);
-        let penalty = given.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
+        let penalty = given.unwrap_or(computed.value);
         ContactOptions {
             penalty,
-            modulus,
-            raised: computed.map(|computed| computed.raised),
+            modulus: computed.modulus,
+            raised: given.is_none().then_some(computed.raised),
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             elastic_slip: self.elastic_slip(keys),
             thickness: self.site.thickness,

@@ -51,9 +51,10 @@ impl Builder<'_> {
         let (mesh, dofs, space) = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
-        let options = self.options(keys, (surface, opposite), backings);
+        let computed = self.computed_penalty(keys, (surface, opposite), backings);
+        let options = self.options(keys, (surface, opposite), computed);
         self.check_elastic_slip(keys, &options);
-        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings).value);
+        self.check_penalties(name, keys, computed.value);
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }

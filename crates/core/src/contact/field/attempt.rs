@@ -55,7 +55,7 @@ pub struct FieldAttempt<'a> {
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
     pub ahead: Vec<f64>,
-    /// How much nearer a round tool in space lies than in the mean, slot by slot.
+    /// How much nearer the target lies than in the mean, slot by slot.
     pub nearer: Vec<Nearer>,
     /// Closure and slips that multipliers stand for, slot by slot.
     pub shifts: Vec<[f64; COUNT]>,
@@ -216,11 +216,7 @@ impl FieldAttempt<'_> {
     fn closure(&self, slot: usize) -> f64 {
         let options = &self.contact.parts.options;
         let recession = options.overlap.recession(self.law.recession(), self.history.slot(slot), self.at);
-        self.shift(slot)[0] + self.nearer(slot) + recession
-    }
-
-    fn nearer(&self, slot: usize) -> f64 {
-        self.nearer[slot].now
+        self.shift(slot)[0] + self.nearer[slot].now + recession
     }
 
     /// How much deeper an open node must lie for the law to answer as for a closed one, where the first guess holds it closed: it was
@@ -304,7 +300,7 @@ impl FieldAttempt<'_> {
         let (options, multiplied, terms) = (&contact.parts.options, self.shift(slot)[0], (law, &past, old));
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
-        new[entry::NEARER] = self.nearer(slot);
+        new[entry::NEARER] = self.nearer[slot].now;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (here, slip) = (sums.y[0] + self.closure(slot), [sums.y[1], sums.y[2]]);
         let lift = self.lift(slot, &past, [here, slip[0], slip[1]]);

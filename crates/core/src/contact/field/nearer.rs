@@ -57,9 +57,13 @@ impl Configuration<'_> {
         if contact.roles.itself || surface.plane && matches!(self.target, TargetInPlace::Tool(_)) {
             return nearer;
         }
-        let mut seen = LookedAt::default();
+        let mut gaps = Vec::new();
         for piece in 0..contact.pieces {
             let gap = |node: usize| mean(contact.slot(node, piece));
+            let close = |node: usize| gap(node).is_some_and(|gap| gap <= far);
+            if !(0..surface.nodes.len()).any(close) {
+                continue;
+            }
             // By how much farther from the target than a node one of those around it is, and the least of that up to two edges away.
             let beside = |node: usize| {
                 let Some(own) = gap(node) else { return f64::INFINITY };
@@ -83,12 +87,9 @@ impl Configuration<'_> {
             let follows = |node: usize| !contact.is_round(piece) && !closed(node) && bears[node] > 0.0;
             let curved =
                 |node: usize| surface.nodes[node].support.iter().any(|&(face, _)| surface.faces[face].is_piece());
-            let near = |&node: &usize| {
-                let close = straight[node] > 0.0 && gap(node).is_some_and(|gap| gap <= far);
-                close && !follows(node) && !curved(node)
-            };
+            let near = |&node: &usize| straight[node] > 0.0 && close(node) && !follows(node) && !curved(node);
             for node in (0..surface.nodes.len()).filter(near) {
-                let Some(around) = self.around(node, piece, (far, depths), &mut seen) else { continue };
+                let Some(around) = self.around(node, piece, (far, depths), &mut gaps) else { continue };
                 let more = gap(node).map_or(0.0, |gap| gap - around.least).min(MOST * around.range);
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
@@ -106,28 +107,25 @@ impl Configuration<'_> {
         nearer
     }
 
-    /// The gaps of a piece around a node. What leans against a flat tool or a body does not touch it with the node: the least gap is then of
+    /// The gaps of a piece around a node, with room for them. What leans against a flat tool or a body does not touch it with the node: the least gap is then of
     /// what is left by the linear one.
     fn around(
         &self,
         node: usize,
         piece: usize,
         (far, depths): (f64, &[f64]),
-        LookedAt { gaps, half }: &mut LookedAt,
+        gaps: &mut Vec<PlaceGap>,
     ) -> Option<Around> {
         let support = &self.contact.parts.surface.nodes[node].support;
         let (mut within, mut center) = (0.0, Vec3::zero());
         gaps.clear();
-        half.clear();
         let part = (support.len() as f64).recip();
         for &(number, corner) in support {
             let (begin, face) = (gaps.len(), self.face(number));
             let range = [-2.0 * depths[number], far + 2.0 * self.contact.longest];
             for (nearest, xi) in places(&face, corner) {
-                if let Some(gap) = self.gap_at((&face, number), xi, (piece, range)) {
-                    half.extend(nearest.then_some(gap));
-                    gaps.push(gap);
-                }
+                let gap = self.gap_at((&face, number), xi, (piece, range));
+                gaps.extend(gap.map(|gap| PlaceGap { nearest, ..gap }));
             }
             within += WITHIN * part * beyond_linear(&gaps[begin..]).range;
             let [own, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
@@ -135,7 +133,8 @@ impl Configuration<'_> {
         }
         let Beyond { slope, range, round } = beyond_linear(gaps);
         let leans = |gap: &PlaceGap| if self.contact.is_round(piece) { 0.0 } else { slope.dot(gap.x - center) };
-        let least = half.iter().map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
+        let half = gaps.iter().filter(|gap| gap.nearest);
+        let least = half.map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
         least.is_finite().then_some(Around { least, range: range.max(within), round })
     }
 
@@ -151,7 +150,7 @@ impl Configuration<'_> {
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
-                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap })
+                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: false })
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
@@ -159,7 +158,7 @@ impl Configuration<'_> {
                     let faces_it = -hit.normal().dot(ray.n) > LEAST_COSINE;
                     faces_it && self.contact.piece_of(other) == piece && self.contact.may_touch(number, other)
                 };
-                faces.nearest(&ray, range, admits).map(|(_, hit)| PlaceGap { x, n, gap: hit.gap })
+                faces.nearest(&ray, range, admits).map(|(_, hit)| PlaceGap { x, n, gap: hit.gap, nearest: false })
             }
         }
     }
@@ -174,7 +173,7 @@ pub struct Nearer {
     most: f64,
     /// by more than how much it must be less for a converged increment to go on.
     much: f64,
-    /// Half width of a contact over that of a face, its square for a unit of pressure and a cylinder but for a factor.
+    /// `p h / E* K` for a unit of pressure `p`, with `K` the bend of the gap over a face of length `h`.
     scale: f64,
     /// How nearly round the gap is: one under a ball, zero under a cylinder.
     round: f64,
@@ -208,13 +207,6 @@ impl Nearer {
     }
 }
 
-/// The gaps that were found around a node, and of these those over its half faces.
-#[derive(Default)]
-struct LookedAt {
-    gaps: Vec<PlaceGap>,
-    half: Vec<PlaceGap>,
-}
-
 /// The gaps around a node.
 struct Around {
     /// The least over the half faces.
@@ -231,6 +223,8 @@ struct PlaceGap {
     /// Its direction.
     n: Vec3,
     gap: f64,
+    /// Whether the place is nearer to the node than to others.
+    nearest: bool,
 }
 
 /// Places of a face, and whether they belong to the part that is nearest to a corner.

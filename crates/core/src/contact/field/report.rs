@@ -230,8 +230,12 @@ impl FieldContact {
         let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
         // A few nodes that touch are no fit.
         let pressed = 4.0 * count > self.nodal_slots() as f64;
-        let clearance = if pressed { -sum / count } else { self.clearance()? };
-        let deeper = self.deeper();
+        let places = self.facet_places();
+        // By how much the facets of both sides stand deeper in each other than smooth surfaces.
+        let [rise, area] = [|place: &FacetPlace| place.rise, |place: &FacetPlace| place.area]
+            .map(|of| places.iter().map(of).sum::<f64>());
+        let deeper = if area > 0.0 { -rise / area } else { 0.0 };
+        let clearance = if pressed { -sum / count } else { self.clearance(places)? };
         // What the curved surfaces overlap by, and where that is nothing or little what moves them into each other, as heat does.
         let overlap = -(clearance + deeper);
         let moved = self.motion(u) + overlap;
@@ -265,39 +269,30 @@ impl FieldContact {
         })
     }
 
-    /// By how much the facets of both sides stand deeper in each other than smooth surfaces, where they see each other before any motion.
-    fn deeper(&self) -> f64 {
-        let (mut sum, mut whole) = (0.0, 0.0);
-        self.each_risen(|_, rises, area| {
-            sum += rises.iter().sum::<f64>();
-            whole += area;
-        });
-        if whole > 0.0 { -sum / whole } else { 0.0 }
-    }
-
     /// The distance in which most of the surface lay to the target before any motion, up to what facets leave surfaces that fit; none where
     /// it differs by more from place to place.
-    fn clearance(&self) -> Option<f64> {
-        let mut gaps = Vec::new();
-        self.each_risen(|gap, rises, area| {
-            gaps.push((gap, STANDS_OFF * rises.iter().map(|rise| rise.abs()).sum::<f64>() / area))
-        });
-        gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let median = -gaps.get(gaps.len() / 2)?.0;
-        (2 * gaps.iter().filter(|(gap, near)| (gap + median).abs() <= *near).count() > self.parts.surface.nodes.len())
-            .then_some(median.max(0.0))
+    fn clearance(&self, mut places: Vec<FacetPlace>) -> Option<f64> {
+        places.sort_by(|a, b| b.gap.total_cmp(&a.gap));
+        let median = -places.get(places.len() / 2)?.gap;
+        let near = |place: &&FacetPlace| (place.gap + median).abs() <= STANDS_OFF * place.off / place.area;
+        (2 * places.iter().filter(near).count() > self.parts.surface.nodes.len()).then_some(median.max(0.0))
     }
 
-    /// Calls `take` with the gap of each slot that sees a face before any motion, what smooth surfaces rise above the sides around it on
-    /// either side of the contact, over the area of each, and its area.
-    fn each_risen(&self, mut take: impl FnMut(f64, &[f64], f64)) {
+    /// The slots that see a face before any motion.
+    fn facet_places(&self) -> Vec<FacetPlace> {
         let (mesh, still) = (&self.parts.mesh, vec![0.0; self.parts.dofs.count()]);
         let mut rises = self.parts.surface.rises(mesh);
         rises.extend(self.parts.target.as_faces().into_iter().flat_map(|faces| faces.surface.rises(mesh)));
+        let mut places = Vec::new();
         self.each_seen(&still, (self.reach(&still), None), |_, stencil, sums| {
-            let rises: Vec<f64> = stencil.sides(sums).map(|(side, _, area)| area * rises[&side]).collect();
-            take(sums.y[0], &rises, sums.area);
+            let mut place = FacetPlace { gap: sums.y[0], area: sums.area, rise: 0.0, off: 0.0 };
+            for (side, _, area) in stencil.sides(sums) {
+                let rise = area * rises[&side];
+                (place.rise, place.off) = (place.rise + rise, place.off + rise.abs());
+            }
+            places.push(place);
         });
+        places
     }
 
     /// The largest displacement of a node of the surface or of what it may touch.
@@ -313,6 +308,16 @@ impl FieldContact {
         let most = |surface: &FieldSurface| surface.largest_sagitta(self.mesh());
         most(self.surface()) + self.target().as_faces().map_or(0.0, |faces| most(&faces.surface))
     }
+}
+
+/// A slot that sees a face before any motion.
+struct FacetPlace {
+    /// Its penetration, and its area.
+    gap: f64,
+    area: f64,
+    /// What smooth surfaces rise above the sides around it on either side of the contact, times its area, and that by size.
+    rise: f64,
+    off: f64,
 }
 
 /// Distance of facets from a smooth surface at a node over that in the mean, at most: in the middle of a side it is half as much again,

@@ -198,8 +198,8 @@ impl Configuration<'_> {
                 TargetInPlace::Faces(faces) => {
                     let ray = FaceRay { x: at.x, n: at.normal.unit() };
                     let hit = faces.project(patch.target, &ray)?;
-                    // Normals of a hollow that cross before they come to a face pass its ends the other way round.
-                    if self.contact.parts.surface.plane && hit.gap > 0.0 && !faces.holds(patch.target, hit.s, BESIDE) {
+                    // Normals of a hollow or, inward, of a bulge that cross before they come to a face pass its ends the other way round.
+                    if self.contact.parts.surface.plane && !faces.holds(patch.target, hit.s, BESIDE) {
                         return None;
                     }
                     (hit.gap, -hit.normal().dot(ray.n))

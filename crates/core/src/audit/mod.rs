@@ -22,3 +22,4 @@ mod simplex;
 mod surface;
 
 pub use check::{Audit, Claim, Subject};
+pub use rigid::Rigid;

@@ -84,6 +84,18 @@ impl Rigid {
         Self { name: name.into(), first, plane, reference, tree, pieces, points, bounds, closed, sagitta }
     }
 
+    /// Distance of a point from it where it stands first, negative in its material.
+    pub fn distance(&self, p: Vec3) -> f64 {
+        if let Some(found) = depth(&self.tree, p, (f64::INFINITY, false), &|_, _| true) {
+            return -found.depth;
+        }
+        let mut least = f64::INFINITY;
+        self.tree.nearest(p, f64::INFINITY, &mut |_, _, distance| {
+            least = distance;
+            false
+        });
+        least
+    }
     /// Where it stands at a part of the way from the accepted unknowns to `u`.
     pub fn pose(&self, accepted: &[f64], u: &[f64], part: f64) -> Pose {
         let at = |i: usize| accepted[self.first + i] + (u[self.first + i] - accepted[self.first + i]) * part;
@@ -192,6 +204,24 @@ fn tiles(facet: &dyn ToolFacet, sagitta: f64) -> Vec<Simplex> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tool::shapes::find;
+
+    /// Far from a roof its flanks, carried on, have a point before it in their material, and in a groove one behind it before them.
+    #[test]
+    fn what_lies_before_a_roof_is_outside() {
+        let line =
+            |nodes: [[f64; 2]; 2]| find("line").unwrap().build(&nodes.map(|[x, y]| Vec3::new(x, y, 0.0))).unwrap();
+        let corners = [[-5.0, -6.0], [5.0, -6.0], [5.0, -2.0], [0.5, 1.0], [-3.0, -0.5], [-5.0, -6.0]];
+        let sides = corners.windows(2).map(|ends| line([ends[0], ends[1]])).collect();
+        let tool = ProfileTool::new("roof", vec![sides], Vec3::zero());
+        let rigid = Rigid::plane(&tool, 0, &Dofs::new(2, 0, 1), 0.1);
+        for (x, y) in [(0.5, 3.0), (-11.0, 1.0), (30.0, 2.0), (-4.9, -0.5), (5.5, -4.0)] {
+            assert!(rigid.distance(Vec3::new(x, y, 0.0)) > 0.0, "{x} {y}");
+        }
+        assert!((rigid.distance(Vec3::new(0.5, 3.0, 0.0)) - 2.0).abs() < 1e-12);
+        assert!((rigid.distance(Vec3::new(4.0, -4.0, 0.0)) + 1.0).abs() < 1e-12);
+        assert!(rigid.distance(Vec3::new(0.5, 0.9, 0.0)) < 0.0);
+    }
     use crate::tool::space::SpaceTool;
     use crate::tool::space::solids::polygons;
 

@@ -359,7 +359,7 @@ impl Names<'_> {
         let others = if tool.is_none() { sides(&contact.target, found) } else { None };
         let surface = surface.filter(|_| tool.is_some() || others.is_some())?;
         let FieldSides { carrier, target, itself, swapped } = match others {
-            Some(others) => FieldSides::new([surface, others], true, (mesh, *space, *thickness)),
+            Some(others) => FieldSides::new([surface, others], true, (mesh, *space, *thickness), backings),
             None => FieldSides {
                 carrier: surface,
                 target: tool_target((self.tools, self.solid_tools), tool?, dofs)?,

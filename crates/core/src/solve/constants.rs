@@ -203,8 +203,7 @@ pub mod rigid_motions {
 /// Attempts at an increment.
 pub mod increments {
     /// Part that the trapezoid of the work misses, of half of what the forces grow by along the motion, of a force that grows from nothing
-    /// with the third power of the motion, as a membrane's does: `(1/2 - 1/4) / (1/2)`. Where a contact closes that bore nothing, and
-    /// what closes it lay close, it may be all: what nothing held has fallen until it touched.
+    /// with the third power of the motion, as a membrane's does: `(1/2 - 1/4) / (1/2)`.
     pub const CUBIC: f64 = 0.5;
     /// Energy below this part of that of the model and of its forces over a cell is rounding.
     pub const NOISE: f64 = 1e-9;

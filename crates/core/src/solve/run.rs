@@ -2,7 +2,6 @@
 
 use super::constants::increments::{ATTEMPTS, BACK, CUBIC, DRIVEN, FAR, JUMPED, LEAP, NEAR, NOISE, RELAX, RETURNS};
 use super::constants::path::ASTRAY;
-use super::constants::regularisation::CLOSE;
 use super::constants::sizes::{AIM, EASY, PAST, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{self, Converged, Memory, Newton, SolveError};
@@ -511,8 +510,7 @@ impl<'a> Run<'a> {
         let [before, now] = [&state.internal, &evaluation.internal].map(|forces| along(forces));
         state.external_work += 0.5 * (before + now);
         if now.abs() > before.abs() {
-            let part = if touches_first(self.problem, state, &evaluation.energies) { 1.0 } else { CUBIC };
-            state.unresolved_work += 0.5 * part * (now - before).abs();
+            state.unresolved_work += 0.5 * CUBIC * (now - before).abs();
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
@@ -563,14 +561,6 @@ fn added(mut forces: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     forces.sort_by_key(|(dof, _)| *dof);
     let sum = |group: &[(usize, f64)]| (group[0].0, group.iter().map(|(_, force)| force).sum());
     forces.chunk_by(|a, b| a.0 == b.0).map(sum).filter(|(_, force)| *force != 0.0).collect()
-}
-
-/// Whether a contact that bore nothing bears with these energies, and what closed it lay close.
-fn touches_first(problem: &Problem, state: &State, energies: &[Energies]) -> bool {
-    let mut all = problem.terms.iter().zip(state.energies.iter().zip(energies));
-    let closes = all.any(|(term, (before, now))| term.bends() && before.stored == 0.0 && now.stored > 0.0);
-    let places = (0..state.u.len()).filter(|&dof| !problem.dofs.is_rotation(dof));
-    closes && newton::largest(places.map(|dof| state.last_change[dof])) <= CLOSE * problem.cell_size
 }
 
 /// Energy that came from outside and that no term has taken up.

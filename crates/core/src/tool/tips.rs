@@ -5,8 +5,9 @@ use super::tool::ProfileTool;
 use crate::tensor::Vec3;
 use std::f64::consts::TAU;
 
-/// A crease or an arc that turns outward by at least this angle, in radians, is a tip: the material between its flanks takes less
-/// than 100 degrees. A blunter one is felt by its flanks.
+/// A vertex that turns outward by at least this angle, in radians, is a tip; a blunter one is felt by its flanks to a twentieth of a face.
+const VERTEX: f64 = 20.0 * std::f64::consts::PI / 180.0;
+/// A rounding that turns by at least this angle, in radians, has two flanks: the material between them takes less than 100 degrees.
 const SHARP: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
 /// What of a tool's profile may touch a body within one of its faces: the edge of a wedge, or a rounding by its closest point.
@@ -48,7 +49,7 @@ impl ProfileTool {
             for (one, next) in chain.joints() {
                 let [one, next] = [one, next].map(|i| &self.segments()[i]);
                 let (a, b) = (one.tangent(1.0).unit(), next.tangent(0.0).unit());
-                if angle(a, b) >= SHARP {
+                if angle(a, b) >= VERTEX {
                     edge(one.point(1.0), (a - b).unit(), [-a.left(), -b.left()]);
                 }
             }
@@ -163,7 +164,9 @@ mod tests {
         // The edge, and the two ends.
         assert_eq!(sharp.len(), 3);
         assert!((sharp[0].outward - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
-        let blunt = tips(&[("line", &[[-2.0, 1.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [2.0, 1.0]])]);
+        let roof = tips(&[("line", &[[-2.0, 1.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [2.0, 1.0]])]);
+        assert_eq!(roof.len(), 3);
+        let blunt = tips(&[("line", &[[-2.0, 0.3], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [2.0, 0.3]])]);
         assert_eq!(blunt.len(), 2);
         assert!(blunt.iter().all(|tip| tip.outward[1] > 0.0), "both ends point away from what is below");
         let arc: &[[f64; 2]] = &[[-0.2, 0.0], [0.0, -0.2], [0.2, 0.0]];

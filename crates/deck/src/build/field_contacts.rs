@@ -65,7 +65,7 @@ impl Builder<'_> {
             }
             Opposite::Sides(others) => {
                 let may_swap = keys.roles == Roles::Auto;
-                FieldSides::new([surface, others], may_swap, (&mesh, space, self.site.thickness))
+                FieldSides::new([surface, others], may_swap, (&mesh, space, self.site.thickness), backings)
             }
         };
         let held: Vec<_> = self.planes(&mesh).into_iter().map(|(nodes, _)| nodes.into_iter().collect()).collect();

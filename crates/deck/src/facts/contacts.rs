@@ -5,9 +5,9 @@ use crate::build::{Made, backings};
 use crate::keys::{Components, Contact};
 use crate::reader::Name;
 use crate::review::Seen;
+use asperity_core::audit::Rigid;
 use asperity_core::contact::{Backing, default_penalty};
 use asperity_core::mesh::{Side, Space};
-use asperity_core::model::Model;
 use asperity_core::system::Term;
 use asperity_core::tensor::Vec3;
 use asperity_results::diagnosis::ContactFacts;
@@ -39,7 +39,11 @@ fn contact_facts(made: &Made, (name, keys): (&Name, &Contact), all: &[Seen], bac
     let own = sampled(&nodes(surface));
     let (inside, distance) = match tool {
         Some(tool) => {
-            let gap = signed_distance(model, tool);
+            let (dofs, cell) = (&model.problem.dofs, model.problem.cell_size);
+            let flat = model.tools.get(tool).map(|flat| Rigid::plane(flat, tool, dofs, cell));
+            let solid = || model.solid_tools.get(tool).map(|solid| Rigid::space(solid, tool, dofs, cell));
+            let rigid = flat.or_else(solid);
+            let gap = |x: Vec3| rigid.as_ref().map_or(f64::INFINITY, |rigid| rigid.distance(x));
             let of_body: BTreeSet<usize> = model
                 .bodies
                 .iter()
@@ -109,55 +113,4 @@ fn edge(corners: Vec<Vec3>, space: Space) -> f64 {
 
 fn sampled(nodes: &BTreeSet<usize>) -> Vec<usize> {
     nodes.iter().copied().step_by(nodes.len() / SAMPLE + 1).collect()
-}
-
-/// Distance from a tool where it stands first, negative in its material.
-fn signed_distance(model: &Model, number: usize) -> Box<dyn Fn(Vec3) -> f64 + '_> {
-    if let Some(tool) = model.tools.get(number) {
-        let pieces = tool.smooth_pieces(0.0);
-        return Box::new(move |x| {
-            let foot = |piece| {
-                let foot = tool.closest(piece, x);
-                (foot.point, foot.normal)
-            };
-            signed(x, pieces.iter().map(foot))
-        });
-    }
-    let Some(tool) = model.solid_tools.get(number) else { return Box::new(|_| f64::INFINITY) };
-    let pieces = tool.smooth_pieces();
-    Box::new(move |x| {
-        let foot = |piece| {
-            let foot = tool.closest(&pieces, piece, x);
-            (foot.point, foot.normal)
-        };
-        signed(x, (0..pieces.count()).map(foot))
-    })
-}
-
-/// Distance of a point from the nearest of the feet on several pieces, each with its outward normal. At an edge that pieces share the
-/// sum of their normals gives the sign, after the pseudonormal of Baerentzen & Aanaes (IEEE Trans. Vis. Comput. Graph. 11, 2005).
-fn signed(x: Vec3, feet: impl Iterator<Item = (Vec3, Vec3)>) -> f64 {
-    let feet: Vec<(f64, Vec3, Vec3)> = feet.map(|(point, normal)| ((x - point).norm(), point, normal)).collect();
-    let Some(&(least, nearest, _)) = feet.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { return f64::INFINITY };
-    let same = feet.iter().filter(|(distance, ..)| *distance <= least * (1.0 + 1e-9));
-    let out = same.fold(Vec3::zero(), |sum, (.., normal)| sum + *normal);
-    least.copysign((x - nearest).dot(out))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Beside the tip of a slender tooth one of its flanks looks away from a point outside, and in a groove towards one inside.
-    #[test]
-    fn edges_have_the_sign_of_both_flanks() {
-        let flanks = [Vec3([0.99, 0.1, 0.0]), Vec3([-0.99, 0.1, 0.0])];
-        let at = |x: f64, y: f64| signed(Vec3([x, y, 0.0]), flanks.iter().map(|normal| (Vec3::zero(), *normal)));
-        assert!(flanks[1].dot(Vec3([0.2, 1.0, 0.0])) < 0.0);
-        assert!((at(0.2, 1.0) - 1.04_f64.sqrt()).abs() < 1e-15);
-        assert!(at(0.2, -1.0) < 0.0);
-        // Away from the edge the nearer of two feet counts alone.
-        let feet = [(Vec3::zero(), flanks[1]), (Vec3([0.19, 1.0, 0.0]), flanks[0])];
-        assert!((signed(Vec3([0.2, 1.0, 0.0]), feet.into_iter()) - 0.01).abs() < 1e-12);
-    }
 }

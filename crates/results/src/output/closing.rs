@@ -21,6 +21,7 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
         summary.notes.push(note);
     }
     summary.notes.extend(rough(model, &run.state));
+    summary.notes.extend(few_facets(model, &run.state));
     summary.notes.extend(model.bodies.iter().flat_map(|(body, term)| locking(body, &run.state, *term)));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
@@ -203,6 +204,19 @@ fn rough(model: &Model, state: &State) -> Vec<String> {
                 (model.problem.node_name)(node)
             )
         })
+    };
+    Parts::of(model).contacts.iter().filter_map(told).collect()
+}
+
+/// Which contacts rest on one or two facets of what is meant to be round.
+fn few_facets(model: &Model, state: &State) -> Vec<String> {
+    let told = |(term, name, contact): &(usize, String, Touching)| {
+        let rise = contact.few_facets(&state.histories[*term])?;
+        Some(format!(
+            "contact '{name}': at the end it bears on one or two facets of a curved surface, which lie {rise:.2e} inside that in the mean: \
+             so much later it is touched, and its force may be less than half of that of the curved surface; facets small enough that \
+             five of them bear, or cells of second degree along the surface"
+        ))
     };
     Parts::of(model).contacts.iter().filter_map(told).collect()
 }

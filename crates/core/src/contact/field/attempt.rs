@@ -91,8 +91,16 @@ impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> FieldSearch {
         let now = Configuration { duals: &self.duals, ..Configuration::new(self.contact, u) };
         let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
-        self.contact
-            .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
+        let list_touched =
+            |now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>| self.list_touched(now, patch, nodes);
+        let mut found = self.contact.find((&now, tips), self.reach, &self.depths, list_touched);
+        for (slot, support) in found.supports.iter_mut().enumerate() {
+            let pressed = self.history.slot(slot)[entry::PRESSURE] > 0.0;
+            if let Some(node) = self.contact.node_of(slot).filter(|_| pressed && support.patches.is_empty()) {
+                support.parted = now.parted(node, slot % self.contact.pieces);
+            }
+        }
+        found
     }
 
     /// Nodes of the faces that the points of a patch saw at the accepted state.
@@ -293,6 +301,7 @@ impl FieldAttempt<'_> {
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
             leave(&*self.law, old, new);
+            local.supplied = across(old, stencil.parted());
             return Ok(0);
         }
         let (stretch, stretching) = stencil.stretch();
@@ -308,6 +317,7 @@ impl FieldAttempt<'_> {
         if self.idle[slot] || seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
             account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, [0.0; 2]), local);
+            local.supplied += across(old, -here);
             return Ok(0);
         }
         self.refuse_leap(slot, (stencil, sums))?;
@@ -345,9 +355,21 @@ impl FieldAttempt<'_> {
         account(terms, (options, self.at), (sums.area * stretch, multiplied), (Some(&response), slip), local);
         new[entry::PENALTY] = self.normal;
         local.supplied += sums.area * self.supplied(old, new);
+        if old[entry::STATUS] == 0.0 {
+            local.supplied -= across(new, self.gap_before(slot));
+        }
         let pressure = 0.5 * (old[entry::PRESSURE] + new[entry::PRESSURE]);
         local.supplied += sums.area * stretch * pressure * (new[entry::NEARER] - old[entry::NEARER]);
         Ok(response.status as Branch)
+    }
+
+    /// The gap at the accepted state of a node that closes.
+    fn gap_before(&self, slot: usize) -> f64 {
+        let (old, node) = (self.history.slot(slot), self.contact.node_of(slot));
+        match node.filter(|_| old[entry::SEGMENT] < 0.0) {
+            Some(node) => self.before.parted(node, slot % self.contact.pieces),
+            None => -(old[entry::PENETRATION] + self.closure(slot)),
+        }
     }
 
     /// Derivative of the stresses over undeformed area along the stretch, as a central difference: zero but for laws that know a
@@ -384,6 +406,12 @@ impl FieldAttempt<'_> {
         let Some(rigid) = contact.parts.target.as_tool() else { return Ok(()) };
         rigid.refuse_turn(stencil.at.motion(), self.accepted, || contact.name_of(slot))
     }
+}
+
+/// What the trapezoid of the work of supports and loads has over a `gap` of a node that was, or is, closed at its end: half the pressure all
+/// the way, while there is none where the node is apart from the target.
+fn across(closed: &[f64], gap: f64) -> f64 {
+    0.5 * closed[entry::PRESSURE].max(0.0) * closed[entry::HALF] * closed[entry::XI] * gap.max(0.0)
 }
 
 /// Step of the stretch in differences, as a part of it.
@@ -579,7 +607,7 @@ impl FieldAttempt<'_> {
     fn flatten(&mut self, new: &History) -> bool {
         let mut less = false;
         for (slot, nearer) in self.nearer.iter_mut().enumerate().filter(|(_, nearer)| nearer.now > self.contact.least) {
-            less |= nearer.lessen(new.slot(slot)[entry::PRESSURE]);
+            less |= nearer.lessen(self.contact.pressure_around(slot, new));
         }
         less
     }

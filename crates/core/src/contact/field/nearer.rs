@@ -18,6 +18,7 @@
 //! iterations: forces keep a potential. What pressures do over its change from one increment to the next is accounted as supplied.
 
 use super::configuration::{Configuration, TargetInPlace};
+use super::contact::FieldContact;
 use super::cover::FaceInPlace;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use crate::contact::record::entry;
@@ -95,7 +96,7 @@ impl Configuration<'_> {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
                     let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * around.range);
                     let mut found = Nearer { most, much: LESS * more, scale, round: around.round, now: 0.0 };
-                    found.now = found.under(history.slot(slot)[entry::PRESSURE]);
+                    found.now = found.under(contact.pressure_around(slot, history));
                     if closed(node) {
                         // What bears is not pushed any farther.
                         found.now = found.now.min(history.slot(slot)[entry::NEARER]);
@@ -138,6 +139,17 @@ impl Configuration<'_> {
         least.is_finite().then_some(Around { least, range: range.max(within), round })
     }
 
+    /// The gap at which a node lies in front of a piece, however far away; zero where nothing of that is in front of it.
+    pub(super) fn parted(&self, node: usize, piece: usize) -> f64 {
+        let gap = |&(number, corner): &(usize, usize)| {
+            let face = self.face(number);
+            let xi = face.face.corner_place(corner);
+            Some(self.gap_at((&face, number), xi, (piece, [0.0, f64::INFINITY]))?.gap)
+        };
+        let gaps = self.contact.parts.surface.nodes[node].support.iter().filter_map(gap);
+        gaps.reduce(f64::min).map_or(0.0, |gap| gap.max(0.0))
+    }
+
     /// A place of a face, and the gap of a piece there.
     fn gap_at(
         &self,
@@ -161,6 +173,16 @@ impl Configuration<'_> {
                 faces.nearest(&ray, range, admits).map(|(_, hit)| PlaceGap { x, n, gap: hit.gap, nearest: false })
             }
         }
+    }
+}
+
+impl FieldContact {
+    /// The largest pressure of a node and those around it: a row of nodes flattens as one, or open ones between those that bear would be touched
+    /// before them in the next increment.
+    pub(super) fn pressure_around(&self, slot: usize, history: &History) -> f64 {
+        let pressure = |node: usize| history.slot(self.slot(node, slot % self.pieces))[entry::PRESSURE];
+        let around = |node: usize| self.surface().neighbours(node).map(pressure).fold(pressure(node), f64::max);
+        self.node_of(slot).map_or(0.0, around)
     }
 }
 

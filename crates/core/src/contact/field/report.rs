@@ -220,6 +220,33 @@ impl FieldContact {
         (count >= MANY && sum > 0.0).then(|| (jumps / sum, worst.1))
     }
 
+    /// How far the facets of convex surfaces lie inside these in the mean, where a contact is no wider than two rows of nodes and bears on one or
+    /// two facets: what is round is then touched later than it should be, by a good part of the approach (of Hertz, as the square of their number).
+    pub fn few_facets(&self, history: &History) -> Option<f64> {
+        let surface = self.surface();
+        let slots = |node: usize| (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)));
+        let closed: Vec<bool> =
+            (0..surface.nodes.len()).map(|node| slots(node).any(|values| values[entry::STATUS] > 0.0)).collect();
+        let is_inner = |node: usize| surface.neighbours(node).all(|beside| closed[beside]);
+        let bearing = || (0..closed.len()).filter(|&node| closed[node]);
+        if bearing().next().is_none() || bearing().any(is_inner) {
+            return None;
+        }
+        let own = surface.rises(self.mesh());
+        let seen = self.parts.target.as_faces().map(|faces| (faces, faces.surface.rises(self.mesh())));
+        let opposite = |values: &[f64]| {
+            let (faces, rises) = seen.as_ref()?;
+            Some(rises[&faces.surface.faces.get(values[entry::SEGMENT] as usize)?.side])
+        };
+        let rise = |node: usize| {
+            let most = surface.nodes[node].support.iter().map(|&(face, _)| own[&surface.faces[face].side]);
+            let other = slots(node).filter(|values| values[entry::STATUS] > 0.0).filter_map(opposite);
+            most.fold(f64::NEG_INFINITY, f64::max) + other.reduce(f64::max).unwrap_or(0.0)
+        };
+        let rise = bearing().map(rise).fold(f64::NEG_INFINITY, f64::max);
+        (rise > ROUNDING * surface.mean_size(self.mesh())).then_some(rise)
+    }
+
     /// Facets whose mean distance is not that of the curved surfaces they stand for: what they add to an overlap that is to be pressed
     /// apart, or take from it, is pressure; so is what they add to the motion that presses one surface into another that it fits.
     /// As a part of that, and in words.

@@ -161,6 +161,11 @@ impl<'a> StencilInPlace<'a> {
         !self.found.supports[self.slot].patches.is_empty()
     }
 
+    /// Gap of a node that was closed and sees nothing any more.
+    pub fn parted(&self) -> f64 {
+        self.found.supports[self.slot].parted
+    }
+
     /// Whether the target came through the body here.
     pub fn is_through(&self) -> bool {
         self.found.supports[self.slot].through

@@ -23,11 +23,13 @@ pub struct Support {
     pub through: bool,
     /// Deformed over undeformed area of the faces of the patches around the node.
     pub stretch: f64,
+    /// Gap of a node that was closed and has gone so far that it sees nothing.
+    pub parted: f64,
 }
 
 impl Default for Support {
     fn default() -> Self {
-        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0 }
+        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0, parted: 0.0 }
     }
 }
 

@@ -45,6 +45,8 @@ pub struct TipFoot {
 /// Angles between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner of a punch does:
 /// the flank's own nodes then feel all that there is, and the tip nothing. Of a rounding larger than the face, over that.
 const FLAT: [f64; 2] = [0.45, 0.72];
+/// The same of a vertex.
+const FLAT_AT_VERTEX: [f64; 2] = [0.05, 0.15];
 /// Curvature of the surface over that of a rounding from which on the mean gap of its nodes is nearer to that of the curved surface than the
 /// gap of the closest place of its edges is: `(1 - k) h^2 / 12 R` beside `k^2 h^2 / 8 R`.
 const CONFORMING: f64 = 0.55;
@@ -355,7 +357,8 @@ impl Configuration<'_> {
         let cosine = rest.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
         let size = 2.0 * area(f).norm();
         let angle = cosine.clamp(-1.0, 1.0).acos() * radius.max(size) / size;
-        let [apart, _] = smoothstep((angle - FLAT[0]) / (FLAT[1] - FLAT[0]));
+        let [from, to] = if radius > 0.0 { FLAT } else { FLAT_AT_VERTEX };
+        let [apart, _] = smoothstep((angle - from) / (to - from));
         apart * smoothstep(1.0 - self.conformity(place, tool.place(tip.centre), radius) / CONFORMING)[0]
     }
 }

@@ -146,7 +146,7 @@ fn accuracy(_: &Facts, course: &RunCourse) -> Option<Finding> {
         }
         _ => "penetration",
     };
-    let what = format!("{} is beyond what can be trusted", worst.words.trim());
+    let what = format!("a figure of the certificate is beyond its limit: {}", worst.words.trim());
     Some(
         // A run that stopped did so of something else.
         finding(cause, if course.kind().is_some() { 0.4 } else { 0.6 }, what)

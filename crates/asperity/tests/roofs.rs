@@ -1,0 +1,49 @@
+//! Obtuse vertices of a tool in the plane: a roof that is pressed into a block and slides over it.
+
+mod support;
+
+use support::{columns, model, run};
+
+/// Forces on a roof with flanks of so many degrees, right and up, over its way: pressed in by a fifth of an edge, then slid by eight edges.
+fn forces([left, right]: [f64; 2], friction: f64) -> Vec<[f64; 2]> {
+    let [left, right] = [left, right].map(|angle: f64| 8.0 / angle.to_radians().tan());
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [20.0, 6.0], cells = [40, 12], cell = "quad4" }}
+material.elastic.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block.material = "elastic"
+tool.roof.profile = [{{ line = [[{}, 14.0], [7.1, 6.0]] }}, {{ line = [[7.1, 6.0], [{}, 14.0]] }}]
+contact.top = {{ surface = "block.top", target = "roof", law.coulomb.friction = {friction} }}
+[[step]]
+displacement."block.bottom" = {{ x = 0.0, y = 0.0 }}
+motion.roof.y = -0.1
+[[step]]
+increments.count = 40
+motion.roof = {{ x = 4.0, y = -0.1 }}
+"#,
+        7.1 - left,
+        7.1 + right
+    );
+    let model = model(&deck, &[]);
+    let columns = columns(&model, &run(&model));
+    let [x, y] = ["x", "y"].map(|axis| columns[&format!("contact.top.force.{axis}")].clone());
+    x.into_iter().zip(y).map(|(x, y)| [x, y]).collect()
+}
+
+/// The normals of the flanks had given a force sideways of tan 20 and tan 40 degrees in turn, with friction of 1.25 of that down.
+#[test]
+fn a_vertex_presses_along_the_normal_of_what_it_slides_over() {
+    for friction in [0.0, 0.2] {
+        let sharp = forces([45.0; 2], friction);
+        for flanks in [[20.0, 40.0], [30.0; 2], [15.0, 60.0]] {
+            let blunt = forces(flanks, friction);
+            assert_eq!(blunt.len(), sharp.len());
+            for ([x, y], [sharp_x, sharp_y]) in blunt.into_iter().zip(&sharp) {
+                assert!((x - sharp_x).abs() + (y - sharp_y).abs() < 1e-6 * sharp_y.abs(), "{flanks:?}: {x} {y}");
+                assert!(x.abs() < (friction + 0.15) * y.abs(), "{flanks:?}: {x} {y}");
+            }
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! What the nodes of a field see of its target.
 
-use super::configuration::Configuration;
+use super::configuration::{Configuration, SeenPart, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::Patch;
 use super::face::FieldFace;
@@ -21,8 +21,7 @@ impl FieldContact {
     ) -> FieldSearch {
         let (mut near, mut patches) = (Vec::new(), Vec::new());
         let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
-        let mut see = |slot: usize, (number, face, corner): (usize, usize, usize), [middle, nearest]: [f64; 2]| {
-            let depth = depths[face];
+        let mut see = |slot: usize, (number, corner): (usize, usize), [middle, nearest]: [f64; 2], depth: f64| {
             if -middle > depth {
                 // Deeper than the middle of the body, and not the body's own far side.
                 supports[slot].through |= -middle < THROUGH * depth;
@@ -33,17 +32,19 @@ impl FieldContact {
         };
         for number in 0..depths.len() {
             for seen in now.patches(number, reach, &mut near) {
+                let depth = self.depth_at(now, &seen, depths[number]);
                 let piece = self.piece_of(seen.patch.target);
                 for corner in 0..self.parts.surface.faces[number].corners() {
                     let slot = self.slot(self.parts.surface.field[number][corner], piece);
-                    see(slot, (patches.len(), number, corner), [seen.middle, seen.least]);
+                    see(slot, (patches.len(), corner), [seen.middle, seen.least], depth);
                 }
                 patches.push(FoundPatch { patch: seen.patch, nodes: Vec::new() });
             }
         }
         for (number, found) in tips.into_iter().enumerate() {
             if let Some(found) = found.filter(|found| found.patch.tip.is_some_and(|tip| tip.share > 0.0)) {
-                see(self.nodal_slots() + number, (patches.len(), found.patch.face, 0), [found.gap; 2]);
+                let depth = depths[found.patch.face];
+                see(self.nodal_slots() + number, (patches.len(), 0), [found.gap; 2], depth);
                 patches.push(FoundPatch { patch: found.patch, nodes: Vec::new() });
             }
         }
@@ -111,6 +112,21 @@ impl FieldContact {
         self.parts.surface.faces.iter().map(depth).collect()
     }
 
+    /// How deep a patch may lie: of a surface that touches itself no deeper than half of the body behind its own middle, where that is less than
+    /// behind the middle of the face, as beside a corner.
+    fn depth_at(&self, now: &Configuration, seen: &SeenPart, depth: f64) -> f64 {
+        let TargetInPlace::Faces(target) = &now.target else { return depth };
+        if !self.roles.itself || -seen.middle <= DEEP * depth {
+            return depth;
+        }
+        let face = now.face(seen.patch.face);
+        let [from, to] = seen.patch.near;
+        let middle = if self.parts.surface.plane { [0.5 * (from + to), 0.0] } else { face.face.middle() };
+        let at = face.at(middle);
+        let ray = FaceRay { x: at.x, n: -at.normal.unit() };
+        depth.min(0.5 * target.depth(face.face.side, &ray, 1e-3 * at.tangents[0].norm()))
+    }
+
     /// What each node sees at displacements `u`, as far as the accepted state alone tells; of the tips all feet, where that has a
     /// history.
     pub(super) fn supports(&self, u: &[f64], reach: f64, history: Option<&History>) -> FieldSearch {
@@ -152,3 +168,5 @@ impl FieldContact {
 
 /// Depth, in units of the largest admissible one, up to which a face is surely not the body's own far side.
 const THROUGH: f64 = 1.8;
+/// Part of the largest admissible depth from which on a patch of a surface that touches itself is asked for its own.
+const DEEP: f64 = 0.25;

@@ -508,6 +508,28 @@ fn contacts_that_hardly_close_are_noted() {
     assert!(coarse.notes().contains("contact 'sole' rested on 2 points at most"), "{}", coarse.notes());
 }
 
+/// A disc of a few flat facets bears on one of them, late, and on many of a fine one; of cells of second degree there are none.
+#[test]
+fn a_disc_that_bears_on_few_facets_is_told() {
+    let disc = |cell: &str, cells: usize| {
+        format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.disc.annulus = {{ from = [2.0, -90.0], to = [5.0, 0.0], cells = [4, {cells}], cell = \"{cell}\" }}
+            material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+            body.disc.material = \"rubber\"
+            tool.floor.profile = [{{ line = [[20.0, -5.0], [-20.0, -5.0]] }}]
+            contact.sole = {{ surface = \"disc.outer\", target = \"floor\", law.frictionless = {{}} }}
+            [[step]]
+            displacement.\"disc.start\" = {{ x = 0.0 }}
+            displacement.\"disc.end\" = {{ y = -0.05 }}"
+        )
+    };
+    let told = |cell: &str, cells: usize| Run::of(&disc(cell, cells), &[]).notes().contains("one or two facets");
+    assert!(told("quad4", 9));
+    assert!(!told("quad4", 90) && !told("quad8", 9));
+}
+
 /// A flat cylinder narrower than a cell presses the whole cell, and that is told; on cells of half its radius it is not.
 #[test]
 fn a_tool_narrower_than_a_face_is_told() {

@@ -144,6 +144,7 @@ impl Chunk {
         self.energies.dissipated += local.dissipated;
         self.energies.supplied += local.supplied;
         self.energies.residue += local.residue;
+        self.energies.across += local.across;
         Ok(())
     }
 }

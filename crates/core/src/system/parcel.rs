@@ -28,11 +28,11 @@ const HEAD: usize = 5;
 impl Parcel {
     /// Adds a chunk that this rank owns.
     pub fn add(&mut self, chunk: &Chunk) {
-        let Energies { stored, dissipated, supplied, residue } = chunk.energies;
+        let Energies { stored, dissipated, supplied, residue, across } = chunk.energies;
         self.numbers.extend_from_slice(&chunk.forces);
         self.numbers.extend_from_slice(&chunk.carried);
         self.numbers.extend(chunk.branches.iter().map(|(branch, _)| f64::from(*branch)));
-        self.numbers.extend([stored, dissipated, supplied, residue]);
+        self.numbers.extend([stored, dissipated, supplied, residue, across]);
     }
     /// Notes that the pattern lacks entries.
     pub fn miss(&mut self) {
@@ -98,9 +98,14 @@ impl Parcels {
         into.branches.clear();
         into.branches
             .extend(next(list.len()).iter().zip(list).map(|(branch, stencil)| (*branch as u8, stencil.choice)));
-        let energies = next(4);
-        into.energies =
-            Energies { stored: energies[0], dissipated: energies[1], supplied: energies[2], residue: energies[3] };
+        let energies = next(5);
+        into.energies = Energies {
+            stored: energies[0],
+            dissipated: energies[1],
+            supplied: energies[2],
+            residue: energies[3],
+            across: energies[4],
+        };
     }
 }
 

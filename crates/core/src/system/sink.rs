@@ -77,6 +77,7 @@ impl<'a> Sink<'a> {
         energies.dissipated += chunk.energies.dissipated;
         energies.supplied += chunk.energies.supplied;
         energies.residue += chunk.energies.residue;
+        energies.across += chunk.energies.across;
     }
 
     fn add_forces(&mut self, dofs: &[usize], forces: &[f64]) {

@@ -53,6 +53,8 @@ pub struct Energies {
     pub supplied: f64,
     /// Work that a rate law neither stores nor dissipates, accumulated likewise.
     pub residue: f64,
+    /// Work that the trapezoid of supports and loads over the last increment has too much where a contact bears nothing on the way.
+    pub across: f64,
 }
 
 impl Energies {

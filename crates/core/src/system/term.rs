@@ -118,6 +118,8 @@ pub struct Local {
     pub supplied: f64,
     /// Work over the increment that a rate law neither stores nor dissipates.
     pub residue: f64,
+    /// What the work of supports and loads by its trapezoid has too much where nothing bears on a part of the way.
+    pub across: f64,
 }
 
 impl Default for Local {
@@ -134,6 +136,7 @@ impl Default for Local {
             dissipated: 0.0,
             supplied: 0.0,
             residue: 0.0,
+            across: 0.0,
         }
     }
 }
@@ -147,7 +150,8 @@ impl Local {
             self.tangent.clear();
             self.tangent.resize(len * len, 0.0);
         }
-        (self.stored, self.dissipated, self.supplied, self.residue) = (0.0, 0.0, 0.0, 0.0);
+        (self.stored, self.dissipated, self.supplied) = (0.0, 0.0, 0.0);
+        (self.residue, self.across) = (0.0, 0.0);
     }
 }
 

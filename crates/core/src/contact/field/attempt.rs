@@ -23,7 +23,7 @@ use crate::interface::{Interface, Past};
 use crate::system::{
     Answer, Attempt, Branch, Coordinates, Couplings, History, Instant, Kinks, Local, Stencil, Stencils, Term,
 };
-use crate::tensor::Vec3;
+use crate::tensor::{Vec3, root};
 use crate::{Failure, FailureKind};
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -93,7 +93,8 @@ impl FieldAttempt<'_> {
         let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
         let list_touched =
             |now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>| self.list_touched(now, patch, nodes);
-        let mut found = self.contact.find((&now, tips), self.reach, &self.depths, list_touched);
+        let mut found =
+            self.contact.find((&now, tips), self.reach, (&self.depths, (&self.before, self.accepted)), list_touched);
         for (slot, support) in found.supports.iter_mut().enumerate() {
             let pressed = self.history.slot(slot)[entry::PRESSURE] > 0.0;
             if let Some(node) = self.contact.node_of(slot).filter(|_| pressed && support.patches.is_empty()) {
@@ -224,7 +225,7 @@ impl FieldAttempt<'_> {
     fn closure(&self, slot: usize) -> f64 {
         let options = &self.contact.parts.options;
         let recession = options.overlap.recession(self.law.recession(), self.history.slot(slot), self.at);
-        self.shift(slot)[0] + self.nearer[slot].now + recession
+        self.shift(slot)[0] + self.nearer[slot].most + recession
     }
 
     /// How much deeper an open node must lie for the law to answer as for a closed one, where the first guess holds it closed: it was
@@ -301,7 +302,7 @@ impl FieldAttempt<'_> {
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
             leave(&*self.law, old, new);
-            local.supplied = across(old, stencil.parted());
+            local.across = -across(old, stencil.parted());
             return Ok(0);
         }
         let (stretch, stretching) = stencil.stretch();
@@ -309,7 +310,7 @@ impl FieldAttempt<'_> {
         let (options, multiplied, terms) = (&contact.parts.options, self.shift(slot)[0], (law, &past, old));
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
-        new[entry::NEARER] = self.nearer[slot].now;
+        new[entry::NEARER] = self.nearer[slot].most;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (here, slip) = (sums.y[0] + self.closure(slot), [sums.y[1], sums.y[2]]);
         let lift = self.lift(slot, &past, [here, slip[0], slip[1]]);
@@ -317,12 +318,15 @@ impl FieldAttempt<'_> {
         if self.idle[slot] || seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
             account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, [0.0; 2]), local);
-            local.supplied += across(old, -here);
+            local.across = -across(old, -here);
             return Ok(0);
         }
         self.refuse_leap(slot, (stencil, sums))?;
-        let (touch, penetration) = (law.touch(&past), seen - contact.least);
+        let y = [seen, sums.y[1], sums.y[2], 0.0];
+        let flat = self.flattened((slot, &past), &y)?;
+        let (touch, penetration) = (law.touch(&past), seen - contact.least - flat);
         new[entry::PENETRATION] -= contact.least;
+        (new[entry::CLOSURE], new[entry::NEARER]) = (new[entry::CLOSURE] - flat, new[entry::NEARER] - flat);
         let part = in_contact(penetration - touch, past.penetration - touch);
         let slip = slip.map(|slip| slip * part);
         let entered = Past { penetration: past.penetration.max(touch), ..past };
@@ -333,9 +337,9 @@ impl FieldAttempt<'_> {
         }
         stencil.find_forces(sums);
         let n = local.force.len();
-        let (mut t, y) = (response.stress, [seen, sums.y[1], sums.y[2], 0.0]);
+        let mut t = response.stress;
         let wanted = local.wants_tangent || lift > 0.0;
-        let tangent = if wanted { answer(law, &past, contact.least, &y)? } else { Answer::default() };
+        let tangent = if wanted { self.behind((slot, &past), flat, &y)? } else { Answer::default() };
         if lift > 0.0 {
             t.copy_from_slice(&extended(tangent, lift).stress[..COUNT]);
         }
@@ -356,11 +360,53 @@ impl FieldAttempt<'_> {
         new[entry::PENALTY] = self.normal;
         local.supplied += sums.area * self.supplied(old, new);
         if old[entry::STATUS] == 0.0 {
-            local.supplied -= across(new, self.gap_before(slot));
+            local.across = across(new, self.gap_before(slot));
         }
         let pressure = 0.5 * (old[entry::PRESSURE] + new[entry::PRESSURE]);
         local.supplied += sums.area * stretch * pressure * (new[entry::NEARER] - old[entry::NEARER]);
         Ok(response.status as Branch)
+    }
+
+    /// What the law answers at a node, where what bears flattens.
+    fn answer_of(&self, (slot, past): (usize, &Past), y: &Coordinates) -> Result<Answer, Failure> {
+        let flat = self.flattened((slot, past), y)?;
+        self.behind((slot, past), flat, y)
+    }
+
+    /// By how much the pressure of a node makes less what is added to its penetration: a spring in series with the law.
+    fn flattened(&self, (slot, past): (usize, &Past), y: &Coordinates) -> Result<f64, Failure> {
+        let nearer = &self.nearer[slot];
+        let least = self.contact.least;
+        let most = nearer.most.min(y[0] - self.law.opens(past, [y[1], y[2]]) - least);
+        if nearer.most <= least || most <= 0.0 {
+            return Ok(0.0);
+        }
+        let failure = RefCell::new(None);
+        let flat = root([0.0, most], |flat| match answer(&*self.law, past, least, &[y[0] - flat, y[1], y[2], y[3]]) {
+            Ok(Answer { stress, slopes }) => {
+                let [taken, slope] = nearer.flattening(stress[0]);
+                [flat - taken, 1.0 + slope * slopes[0][0]]
+            }
+            Err(error) => {
+                *failure.borrow_mut() = Some(error);
+                [0.0, 1.0]
+            }
+        });
+        failure.into_inner().map_or(Ok(flat), Err)
+    }
+
+    /// What the law answers behind so much of flattening, with the slopes of both in series.
+    fn behind(&self, (slot, past): (usize, &Past), flat: f64, y: &Coordinates) -> Result<Answer, Failure> {
+        let mut found = answer(&*self.law, past, self.contact.least, &[y[0] - flat, y[1], y[2], y[3]])?;
+        if flat > 0.0 {
+            let [_, slope] = self.nearer[slot].flattening(found.stress[0]);
+            let pressure = found.slopes[0].map(|rate| rate / (1.0 + slope * found.slopes[0][0]));
+            for rates in &mut found.slopes {
+                let closing = rates[0] * slope;
+                rates.iter_mut().zip(&pressure).for_each(|(rate, pressure)| *rate -= closing * pressure);
+            }
+        }
+        Ok(found)
     }
 
     /// The gap at the accepted state of a node that closes.
@@ -375,9 +421,9 @@ impl FieldAttempt<'_> {
     /// Derivative of the stresses over undeformed area along the stretch, as a central difference: zero but for laws that know a
     /// stress of their own.
     fn stretch_slopes(&self, (slot, stretch): (usize, f64), y: Coordinates) -> Result<[f64; COUNT], Failure> {
-        let (law, step) = (&*self.law, STRETCHED * stretch);
+        let step = STRETCHED * stretch;
         let at = |stretch: f64| {
-            let stress = answer(law, &self.past(slot, stretch), self.contact.least, &y)?.stress;
+            let stress = self.answer_of((slot, &self.past(slot, stretch)), &y)?.stress;
             Ok::<_, Failure>(stress.map(|stress| stress * stretch))
         };
         let (up, down) = (at(stretch + step)?, at(stretch - step)?);
@@ -509,13 +555,13 @@ impl Attempt for FieldAttempt<'_> {
         let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner).supports[stencil].stretch;
         let past = self.past(stencil, stretch);
         let lift = self.lift(stencil, &past, [y[0], y[1], y[2]]);
-        Ok(extended(answer(&*self.law, &past, self.contact.least, &[y[0] + lift, y[1], y[2], y[3]])?, lift))
+        Ok(extended(self.answer_of((stencil, &past), &[y[0] + lift, y[1], y[2], y[3]])?, lift))
     }
 
     fn sticking(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner).supports[stencil].stretch;
         let (past, still) = (self.past(stencil, stretch), [y[0], 0.0, 0.0, y[3]]);
-        let mut answer = answer(&*self.law, &Past { shear: [0.0; 2], ..past }, self.contact.least, &still)?;
+        let mut answer = self.answer_of((stencil, &Past { shear: [0.0; 2], ..past }), &still)?;
         if answer.slopes[1][1] == 0.0 {
             return self.answer(stencil, y);
         }
@@ -537,7 +583,7 @@ impl Attempt for FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
-        if self.yield_tips(u) || self.flatten(new) {
+        if self.yield_tips(u) {
             return Ok(true);
         }
         let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(self.stiffen(new, taken)) };
@@ -601,15 +647,6 @@ impl FieldAttempt<'_> {
             }
         }
         changed
-    }
-
-    /// Makes less what is added to the penetration of nodes by what they bear in a converged state, and says whether it did.
-    fn flatten(&mut self, new: &History) -> bool {
-        let mut less = false;
-        for (slot, nearer) in self.nearer.iter_mut().enumerate().filter(|(_, nearer)| nearer.now > self.contact.least) {
-            less |= nearer.lessen(self.contact.pressure_around(slot, new));
-        }
-        less
     }
 
     /// Lists the stencils of all nodes at unknowns `u`.

@@ -14,11 +14,10 @@
 //! longer added, and nothing is where the contact is four fifths of a face wide. Between bulky bodies that is so almost from the beginning,
 //! between slender ones hardly at all.
 //!
-//! It is found at the beginning of an increment, from the accepted state, made less once one has converged, and constant within the
-//! iterations: forces keep a potential. What pressures do over its change from one increment to the next is accounted as supplied.
+//! What is added is found at the beginning of an increment, from the accepted state; what flattening takes of it is a spring in series with the
+//! law, and goes with the pressure of the same iteration. What pressures do over the change of both is accounted as supplied.
 
 use super::configuration::{Configuration, TargetInPlace};
-use super::contact::FieldContact;
 use super::cover::FaceInPlace;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use crate::contact::record::entry;
@@ -37,10 +36,6 @@ const CENTRE: f64 = 2.0 / 3.0;
 const BESIDE: f64 = 2.0;
 /// Edges from a node that has no larger gaps around it to what it has nothing added.
 const ROWS: usize = 2;
-/// Approach that the mesh does not resolve over the mean gap, from which on nothing will be added: from one on nothing is.
-const SURELY: f64 = 2.0;
-/// Part of how much nearer the target is, by more than which what is added must be less for a converged increment to go on with that.
-const LESS: f64 = 0.2;
 /// Places along each half edge at which the gap is looked at.
 const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 
@@ -95,13 +90,13 @@ impl Configuration<'_> {
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
                     let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * around.range);
-                    let mut found = Nearer { most, much: LESS * more, scale, round: around.round, now: 0.0 };
-                    found.now = found.under(contact.pressure_around(slot, history));
+                    nearer[slot] = Nearer { most, scale, round: around.round };
                     if closed(node) {
                         // What bears is not pushed any farther.
-                        found.now = found.now.min(history.slot(slot)[entry::NEARER]);
+                        let old = history.slot(slot);
+                        let left = 1.0 - nearer[slot].approach(old[entry::PRESSURE])[0];
+                        nearer[slot].most = if left > 0.0 { most.min(old[entry::NEARER] / left) } else { most };
                     }
-                    nearer[slot] = found;
                 }
             }
         }
@@ -176,25 +171,11 @@ impl Configuration<'_> {
     }
 }
 
-impl FieldContact {
-    /// The largest pressure of a node and those around it: a row of nodes flattens as one, or open ones between those that bear would be touched
-    /// before them in the next increment.
-    pub(super) fn pressure_around(&self, slot: usize, history: &History) -> f64 {
-        let pressure = |node: usize| history.slot(self.slot(node, slot % self.pieces))[entry::PRESSURE];
-        let around = |node: usize| self.surface().neighbours(node).map(pressure).fold(pressure(node), f64::max);
-        self.node_of(slot).map_or(0.0, around)
-    }
-}
-
 /// How much nearer a target lies to the faces around a node than in the mean.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Nearer {
-    /// How much is added to the penetration,
-    pub now: f64,
-    /// and where nothing bears,
-    most: f64,
-    /// by more than how much it must be less for a converged increment to go on.
-    much: f64,
+    /// How much is added to the penetration where nothing bears.
+    pub most: f64,
     /// `p h / E* K` for a unit of pressure `p`, with `K` the bend of the gap over a face of length `h`.
     scale: f64,
     /// How nearly round the gap is: one under a ball, zero under a cylinder.
@@ -202,30 +183,27 @@ pub struct Nearer {
 }
 
 impl Nearer {
-    /// What is added where the node bears a pressure.
-    fn under(&self, pressure: f64) -> f64 {
-        self.most * (1.0 - self.approach(pressure)).max(0.0)
+    /// By how much a pressure makes less what is added, with its slope.
+    pub fn flattening(&self, pressure: f64) -> [f64; 2] {
+        self.approach(pressure).map(|part| self.most * part)
     }
 
-    /// The approach that the mesh does not resolve of a contact that bears a pressure, over the mean gap: of a ball `a^2 / R` over `h^2 / 6 R`
-    /// with `a^3 = 3 F R / 4 E*`, of a cylinder `a^2 ln(h / a) / 2 R` over `h^2 / 12 R` with `a^2 = 4 P' R / pi E*` (Hertz; Johnson 1985).
-    fn approach(&self, pressure: f64) -> f64 {
-        let bears = (pressure * self.scale).max(0.0);
+    /// The approach that the mesh does not resolve of a contact that bears a pressure, over the mean gap, up to the whole, with its slope: of a ball
+    /// `a^2 / R` over `h^2 / 6 R` with `a^3 = 3 F R / 4 E*`, of a cylinder `a^2 ln(h / a) / 2 R` over `h^2 / 12 R` with `a^2 = 4 P' R / pi E*`
+    /// (Hertz; Johnson 1985).
+    fn approach(&self, pressure: f64) -> [f64; 2] {
+        let bears = pressure * self.scale;
+        if bears <= 0.0 {
+            return [0.0; 2];
+        }
         // `a^2 / h^2` of both; the logarithm is for contacts that are narrow in a face.
         let [cylinder, ball] = [4.0 / std::f64::consts::PI * bears, (1.5 * bears).powf(2.0 / 3.0)];
-        let log = if cylinder > 0.0 { (-cylinder.ln()).max(2.0) } else { 0.0 };
-        (1.0 - self.round) * 3.0 * cylinder * log + self.round * 6.0 * ball
-    }
-
-    /// Goes to what is left under a pressure where that is much less, and says whether it did: halfway, since the pressure falls with it, but
-    /// for a contact so wide that nothing will be left.
-    pub fn lessen(&mut self, pressure: f64) -> bool {
-        let left = self.under(pressure);
-        let much = self.now - left > self.much;
-        if much {
-            self.now = if self.approach(pressure) > SURELY { 0.0 } else { 0.5 * (self.now + left) };
-        }
-        much
+        let log = -cylinder.ln();
+        let wide = log <= 2.0;
+        let [flat, round] = [3.0 * (1.0 - self.round) * cylinder, 6.0 * self.round * ball];
+        let part = flat * log.max(2.0) + round;
+        let slope = flat * if wide { 2.0 } else { log - 1.0 } + round * (2.0 / 3.0);
+        if part < 1.0 { [part, slope / pressure] } else { [1.0, 0.0] }
     }
 }
 

@@ -1,22 +1,23 @@
 //! What the nodes of a field see of its target.
 
-use super::configuration::{Configuration, SeenPart, TargetInPlace};
+use super::configuration::{Configuration, SeenPart};
 use super::contact::FieldContact;
 use super::cover::Patch;
 use super::face::FieldFace;
-use super::faces::FaceRay;
+use super::faces::{FaceRay, FacesInPlace};
 use super::stencil::{NodeSums, StencilInPlace};
 use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
 use crate::system::History;
+use std::cell::OnceCell;
 
 impl FieldContact {
-    /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
+    /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths` of the accepted state `before`.
     pub(super) fn find(
         &self,
         (now, tips): (&Configuration, Vec<Option<TipFoot>>),
         reach: f64,
-        depths: &[f64],
+        (depths, before): (&[f64], (&Configuration, &[f64])),
         mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
     ) -> FieldSearch {
         let (mut near, mut patches) = (Vec::new(), Vec::new());
@@ -30,9 +31,11 @@ impl FieldContact {
             supports[slot].patches.push((number, corner));
             least[slot] = least[slot].min(nearest);
         };
+        let boundary = OnceCell::new();
+        let whole = || boundary.get_or_init(|| self.boundary.in_place(self.site(), before.1));
         for number in 0..depths.len() {
             for seen in now.patches(number, reach, &mut near) {
-                let depth = self.depth_at(now, &seen, depths[number]);
+                let depth = self.depth_at(&seen, depths[number], (before.0, &whole));
                 let piece = self.piece_of(seen.patch.target);
                 for corner in 0..self.parts.surface.faces[number].corners() {
                     let slot = self.slot(self.parts.surface.field[number][corner], piece);
@@ -114,17 +117,21 @@ impl FieldContact {
 
     /// How deep a patch may lie: of a surface that touches itself no deeper than half of the body behind its own middle, where that is less than
     /// behind the middle of the face, as beside a corner.
-    fn depth_at(&self, now: &Configuration, seen: &SeenPart, depth: f64) -> f64 {
-        let TargetInPlace::Faces(target) = &now.target else { return depth };
+    fn depth_at<'a>(
+        &self,
+        seen: &SeenPart,
+        depth: f64,
+        (before, whole): (&Configuration, &dyn Fn() -> &'a FacesInPlace<'a>),
+    ) -> f64 {
         if !self.roles.itself || -seen.middle <= DEEP * depth {
             return depth;
         }
-        let face = now.face(seen.patch.face);
+        let face = before.face(seen.patch.face);
         let [from, to] = seen.patch.near;
         let middle = if self.parts.surface.plane { [0.5 * (from + to), 0.0] } else { face.face.middle() };
         let at = face.at(middle);
-        let ray = FaceRay { x: at.x, n: -at.normal.unit() };
-        depth.min(0.5 * target.depth(face.face.side, &ray, 1e-3 * at.tangents[0].norm()))
+        let ray = FaceRay { x: at.x, n: -face.own_normal(middle) };
+        depth.min(0.5 * whole().depth(face.face.side, &ray, 1e-3 * at.tangents[0].norm()))
     }
 
     /// What each node sees at displacements `u`, as far as the accepted state alone tells; of the tips all feet, where that has a
@@ -137,7 +144,7 @@ impl FieldContact {
             Some(history) => now.tips(self.longest, None, self.known_feet(history)),
             None => now.tips(self.longest, Some(&[]), |_| None),
         };
-        self.find((&now, tips), reach, &depths, |_, _, _| {})
+        self.find((&now, tips), reach, (&depths, (&now, u)), |_, _, _| {})
     }
 
     /// Values of a stencil's unknowns.

@@ -41,7 +41,7 @@ impl FieldContact {
             if self.parts.options.overlap == Overlap::Fit && gap > 0.0 && gap <= fits {
                 (values[entry::OVERLAP], values[entry::CLOSURE]) = (-gap, gap);
             } else {
-                values[entry::NEARER] = nearer.now;
+                values[entry::NEARER] = nearer.most;
             }
             self.parts.options.overlap.begin(values, self.least, added);
         }

@@ -48,5 +48,6 @@ fn sum(source: &Source, terms: impl Iterator<Item = usize>) -> Energies {
         dissipated: sum.dissipated + e.dissipated,
         supplied: sum.supplied + e.supplied,
         residue: sum.residue + e.residue,
+        across: sum.across + e.across,
     })
 }

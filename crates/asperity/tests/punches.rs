@@ -36,7 +36,7 @@ fn force(deck: &str) -> f64 {
 #[test]
 fn the_softer_side_carries_the_field() {
     for (space, fine) in [("plane-strain", 15.79), ("axisymmetric", 162.3)] {
-        for (stiff, soft, allowed) in [(10, 7, 0.14), (5, 7, 0.14), (10, 14, 0.1), (20, 12, 0.06)] {
+        for (stiff, soft, allowed) in [(10, 7, 0.14), (5, 7, 0.14), (20, 14, 0.1), (20, 12, 0.06)] {
             let error = force(&deck(space, [stiff, soft])) / fine - 1.0;
             assert!(error.abs() < allowed, "{space} {stiff} {soft}: {error}");
         }

@@ -102,9 +102,12 @@ const ALIKE: f64 = 1.2;
 /// Faces of the smaller of two flat sides over those of the larger up to which it carries the field: a stiff block on a soft one is right
 /// to a percent up to there, and 1 to 3 per cent too soft beyond.
 const COARSE: f64 = 3.0;
-/// Stiffness behind one of two flat sides over that behind the other from which on the softer carries the field, whichever is smaller: the edge of a
-/// stiff block within a coarse face of a soft one makes that 13 % too stiff in place of 33, and a corner that is pressed in does not flip.
+/// Stiffness behind one of two flat sides over that behind the other from which on one of them is softer: it carries the field, although it may be the larger, where
+/// a corner of the stiffer would flip as it is pressed in.
 const STIFFER: f64 = 2.0;
+/// The same from which on the other is rigid beside it, and size of its faces over those of the rigid one from which on it carries the field: the edge of a fine rigid block
+/// within a coarse face of a soft one makes that 33 % too stiff in place of 13.
+const RIGID: [f64; 2] = [10.0, 1.5];
 /// Facets that stand off a smooth surface by more than this part of their size are those of a curve.
 const CURVED: f64 = 1e-3;
 
@@ -152,8 +155,9 @@ impl<'a> FieldSides<'a> {
 }
 
 /// Whether the first is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
-/// facets the other side cannot all follow; else the softer, where one is much softer; else the smaller, whose edges lie within the other, as long as it
-/// is not much coarser, and of sides as large the finer, since a coarse field on a fine target misses what lies between its nodes.
+/// facets the other side cannot all follow; else the much softer of two where the stiffer has corners or much finer faces; else the smaller, whose edges lie
+/// within the other, as long as it is not much coarser: faces that are covered in part have peaks of pressure at their nodes beyond. Of sides as large it is the
+/// finer, since a coarse field on a fine target misses what lies between its nodes.
 fn suits_better([(other, stiffness), (surface, own_stiffness)]: &[(FieldSurface, f64); 2], mesh: &Mesh) -> bool {
     let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
     if bow.max(own_bow) > CURVED {
@@ -161,8 +165,13 @@ fn suits_better([(other, stiffness), (surface, own_stiffness)]: &[(FieldSurface,
     }
     let [extent, own_extent] = [other, surface].map(|side| side.extent(mesh));
     let alike = extent.max(own_extent) <= ALIKE * extent.min(own_extent);
-    if !alike && stiffness.max(*own_stiffness) > STIFFER * stiffness.min(*own_stiffness) {
-        return stiffness < own_stiffness;
+    let contrast = stiffness.max(*own_stiffness) / stiffness.min(*own_stiffness);
+    let softer = stiffness < own_stiffness;
+    let (soft, stiff, stiff_side) = if softer { (fine, own, surface) } else { (own, fine, other) };
+    let has_corners = stiff_side.pieces.iter().any(|&piece| piece != stiff_side.pieces[0]);
+    let is_coarse = contrast > RIGID[0] && soft > RIGID[1] * stiff;
+    if !alike && (is_coarse || contrast > STIFFER && has_corners) {
+        return softer;
     }
     if extent * ALIKE < own_extent {
         fine < COARSE * own

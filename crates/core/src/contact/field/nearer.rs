@@ -34,6 +34,8 @@ const CENTRE: f64 = 2.0 / 3.0;
 /// By how much the gap of a node around is larger, over what may be added, from which on all of it is: under flat faces it is 2.4 times that
 /// and more.
 const BESIDE: f64 = 2.0;
+/// Gap over the size of a face up to which a node may be one that others touch around.
+const TOUCHES: f64 = 0.1;
 /// Edges from a node that has no larger gaps around it to what it has nothing added.
 const ROWS: usize = 2;
 /// Places along each half edge at which the gap is looked at.
@@ -60,9 +62,11 @@ impl Configuration<'_> {
             if !(0..surface.nodes.len()).any(close) {
                 continue;
             }
-            // By how much farther from the target than a node one of those around it is, and the least of that up to two edges away.
+            let closed = |node: usize| history.slot(contact.slot(node, piece))[entry::STATUS] > 0.0;
+            // By how much farther from the target than a node that bears one of those around it is, and the least of that up to two edges away.
             let beside = |node: usize| {
-                let Some(own) = gap(node) else { return f64::INFINITY };
+                let touches = |gap: &f64| *gap <= TOUCHES * contact.size_at(contact.slot(node, piece));
+                let Some(own) = gap(node).filter(touches) else { return f64::INFINITY };
                 surface
                     .neighbours(node)
                     .map(|other| gap(other).map_or(f64::INFINITY, |gap| gap - own))
@@ -72,7 +76,6 @@ impl Configuration<'_> {
                 let around = |node: usize| surface.neighbours(node).map(|other| values[other]).fold(values[node], of);
                 (0..values.len()).map(around).collect()
             };
-            let closed = |node: usize| history.slot(contact.slot(node, piece))[entry::STATUS] > 0.0;
             let mut straight: Vec<f64> = (0..surface.nodes.len()).map(beside).collect();
             let mut bears: Vec<f64> = (0..surface.nodes.len()).map(|node| f64::from(u8::from(closed(node)))).collect();
             for _ in 0..ROWS {

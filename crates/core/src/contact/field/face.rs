@@ -22,9 +22,6 @@ const SIX: [&[usize]; 4] = [&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]];
 const EIGHT: [&[usize]; 5] = [&[0, 4, 7], &[4, 1, 5], &[5, 2, 6], &[7, 6, 3], &[4, 5, 6, 7]];
 const NINE: [&[usize]; 4] = [&[0, 4, 8, 7], &[4, 1, 5, 8], &[8, 5, 2, 6], &[7, 8, 6, 3]];
 
-/// Distance of a node from the flat face over its first edge from which on a face counts as curved.
-const CURVED: f64 = 1e-3;
-
 /// What of a side a face is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SidePart {
@@ -96,12 +93,11 @@ impl FieldFace {
         Self { side, kind, nodes: nodes.collect(), part: SidePart::Whole }
     }
 
-    /// The parts between its nodes of an edge of second degree, and of such a face where it is curved: a mean over all of that would not
-    /// feel what its middle touches. Of a flat one the corners carry the field, else itself.
-    pub fn pieces(self, mesh: &Mesh) -> impl Iterator<Item = Self> {
+    /// The parts between its nodes of an edge or face of second degree: a mean over all of that would not feel what its middle touches, and leave
+    /// the nodes there free to come through what it lies on.
+    pub fn pieces(self) -> impl Iterator<Item = Self> {
         let of = |pieces: &[&'static [usize]]| pieces.iter().map(|piece| SidePart::Piece(piece)).collect();
         let parts = match self.nodes.len() {
-            _ if self.corners() > 2 && !self.is_curved(mesh) => vec![SidePart::Whole],
             3 if self.corners() == 2 => vec![SidePart::Half([-1.0, 0.0]), SidePart::Half([0.0, 1.0])],
             6 => of(&SIX),
             8 => of(&EIGHT),
@@ -111,20 +107,9 @@ impl FieldFace {
         parts.into_iter().map(move |part| Self { part, ..self.clone() })
     }
 
-    /// Whether it is one of the parts of a curved face in space.
+    /// Whether it is one of the parts of a face in space.
     pub fn is_piece(&self) -> bool {
         matches!(self.part, SidePart::Piece(_))
-    }
-
-    /// Whether its nodes lie off the face of first degree between its corners, before any motion.
-    fn is_curved(&self, mesh: &Mesh) -> bool {
-        let rest = self.at_rest(mesh);
-        let x = rest.nodes();
-        let off = |k: usize| {
-            let flat = self.corner_functions(self.place(k)).value(&x[..self.corners()]);
-            (x[k] - flat).norm() > CURVED * (x[1] - x[0]).norm()
-        };
-        (self.corners()..x.len()).any(off)
     }
 
     /// The cell of first degree that it is.

@@ -65,7 +65,7 @@ impl Configuration<'_> {
             let closed = |node: usize| history.slot(contact.slot(node, piece))[entry::STATUS] > 0.0;
             // By how much farther from the target than a node that bears one of those around it is, and the least of that up to two edges away.
             let beside = |node: usize| {
-                let touches = |gap: &f64| *gap <= TOUCHES * contact.size_at(contact.slot(node, piece));
+                let touches = |gap: &f64| surface.plane || *gap <= TOUCHES * contact.size_at(contact.slot(node, piece));
                 let Some(own) = gap(node).filter(touches) else { return f64::INFINITY };
                 surface
                     .neighbours(node)
@@ -84,8 +84,10 @@ impl Configuration<'_> {
             }
             // A surface that folds, slides or spreads onto a flat tool or a body touches it beside what bears already.
             let follows = |node: usize| !contact.is_round(piece) && !closed(node) && bears[node] > 0.0;
-            let curved =
-                |node: usize| surface.nodes[node].support.iter().any(|&(face, _)| surface.faces[face].is_piece());
+            let curved = |node: usize| {
+                let mut faces = surface.nodes[node].support.iter().map(|&(face, _)| face);
+                faces.any(|face| surface.faces[face].is_piece() && surface.curved[face])
+            };
             let near = |&node: &usize| straight[node] > 0.0 && close(node) && !follows(node) && !curved(node);
             for node in (0..surface.nodes.len()).filter(near) {
                 let Some(around) = self.around(node, piece, (far, depths), &mut gaps) else { continue };

@@ -86,7 +86,7 @@ impl FieldSurface {
     /// The same where groups of nodes are `held` by conditions: an end of the surface in one of these, as on a plane of symmetry, is no edge
     /// of a body.
     pub fn held(mesh: &Mesh, sides: &[Side], (space, thickness): (Space, f64), held: &[BTreeSet<usize>]) -> Self {
-        let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).pieces(mesh));
+        let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).pieces());
         Self::of(mesh, faces.collect(), (space, thickness), held)
     }
 

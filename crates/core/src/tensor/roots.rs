@@ -4,10 +4,11 @@
 //! root in a bracket. Degree by degree from the constant up, this finds all of them without a formula that
 //! could lose digits, and without allocation.
 
-/// The zero of a function with its slope between two places where it has different signs: Newton's method that falls back on bisection.
+/// The zero of a function with its slope between two places where it has different signs: Newton's method that falls back on bisection where it
+/// leaves them, or does not halve its step, as to and fro across a kink.
 pub fn root([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> [f64; 2]) -> f64 {
     let below = f(from)[0] < 0.0;
-    let mut x = 0.5 * (from + to);
+    let (mut x, mut last) = (0.5 * (from + to), to - from);
     for _ in 0..100 {
         let [value, slope] = f(x);
         if value == 0.0 {
@@ -15,10 +16,13 @@ pub fn root([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> [f64; 2]) -> f64 {
         }
         *(if (value < 0.0) == below { &mut from } else { &mut to }) = x;
         let newton = x - value / slope;
-        let next = if (from..=to).contains(&newton) { newton } else { 0.5 * (from + to) };
-        let change = (next - x).abs();
-        x = next;
-        if change <= 1e-17 + 1e-16 * x.abs() {
+        let (step, within) = ((newton - x).abs(), (from..=to).contains(&newton));
+        if within && step <= 1e-17 + 4e-16 * x.abs() {
+            return newton;
+        }
+        let next = if within && 2.0 * step <= last { newton } else { 0.5 * (from + to) };
+        (x, last) = (next, (next - x).abs());
+        if to - from <= 1e-17 + 1e-16 * x.abs() {
             break;
         }
     }
@@ -137,6 +141,9 @@ mod tests {
         let steep = root([-1.0, 4.0], |x| [(9.0 * x).tanh() - 0.5, 9.0 / (9.0 * x).cosh().powi(2)]);
         assert!((steep - 0.5_f64.atanh() / 9.0).abs() < 1e-15, "{steep}");
         assert_eq!(root([-1.0, 4.0], |x| [2.0 - x, -1.0]), 2.0);
+        // To and fro between both ends, by a slope that is none.
+        let kink = root([0.0, 1.0], |x| if x < 0.97 { [x - 1.0, 1.0] } else { [15.0 * (x - 0.985), 7.0] });
+        assert!((kink - 0.985).abs() < 1e-14, "{kink}");
     }
 
     #[test]

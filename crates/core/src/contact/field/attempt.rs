@@ -429,7 +429,7 @@ impl FieldAttempt<'_> {
         let (up, down) = (at(stretch + step)?, at(stretch - step)?);
         Ok(std::array::from_fn(|c| {
             let (rise, size) = (up[c] - down[c], up[c].abs() + down[c].abs());
-            if rise.abs() <= 1e-9 * size { 0.0 } else { 0.5 * rise / step }
+            if rise.abs() <= 1e-12 * size { 0.0 } else { 0.5 * rise / step }
         }))
     }
 

@@ -33,9 +33,9 @@ impl FieldContact {
         };
         let boundary = OnceCell::new();
         let whole = || boundary.get_or_init(|| self.boundary.in_place(self.site(), before.1));
-        for number in 0..depths.len() {
+        for (number, &most) in depths.iter().enumerate() {
             for seen in now.patches(number, reach, &mut near) {
-                let depth = self.depth_at(&seen, depths[number], (before.0, &whole));
+                let depth = self.depth_at(&seen, most, (before.0, &whole));
                 let piece = self.piece_of(seen.patch.target);
                 for corner in 0..self.parts.surface.faces[number].corners() {
                     let slot = self.slot(self.parts.surface.field[number][corner], piece);

@@ -522,7 +522,11 @@ impl<'a> Run<'a> {
         let counts = converged.held.is_empty() && close;
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
-            total.across = new.across;
+            if !converged.held.is_empty() {
+                // What nothing holds since it opened has set free what it stored.
+                total.supplied += total.across.min(0.0);
+            }
+            total.across = if counts { new.across } else { 0.0 };
             total.supplied += if counts { new.supplied - new.across } else { new.supplied };
             total.residue += new.residue;
             total.dissipated += new.dissipated;

@@ -4,7 +4,7 @@ mod support;
 
 use support::{columns, model, run};
 
-/// A stiff block of so many cells on so many coarse soft ones, and a punch that goes deep.
+/// A stiff block of so many cells on so many coarse soft ones.
 fn deck(space: &str, [stiff, soft]: [usize; 2]) -> String {
     format!(
         r#"

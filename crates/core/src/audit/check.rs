@@ -176,6 +176,11 @@ impl Audit {
         Look { subject: &self.subject, prepared, placed, accepted, u, reported }
     }
 
+    /// Distance of a point from a tool where that stands first, by its number, negative in its material.
+    pub fn distance(&self, tool: usize, p: Vec3) -> f64 {
+        self.prepared().tools[tool].distance(p)
+    }
+
     fn prepared(&self) -> &Prepared {
         self.prepared.get_or_init(|| {
             let mut prepared = Prepared::new(&self.subject);

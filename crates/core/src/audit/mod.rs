@@ -22,4 +22,3 @@ mod simplex;
 mod surface;
 
 pub use check::{Audit, Claim, Subject};
-pub use rigid::Rigid;

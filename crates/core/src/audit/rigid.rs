@@ -205,6 +205,8 @@ fn tiles(facet: &dyn ToolFacet, sagitta: f64) -> Vec<Simplex> {
 mod tests {
     use super::*;
     use crate::tool::shapes::find;
+    use crate::tool::space::SpaceTool;
+    use crate::tool::space::solids::polygons;
 
     /// Far from a roof its flanks, carried on, have a point before it in their material, and in a groove one behind it before them.
     #[test]
@@ -222,9 +224,6 @@ mod tests {
         assert!((rigid.distance(Vec3::new(4.0, -4.0, 0.0)) + 1.0).abs() < 1e-12);
         assert!(rigid.distance(Vec3::new(0.5, 0.9, 0.0)) < 0.0);
     }
-    use crate::tool::space::SpaceTool;
-    use crate::tool::space::solids::polygons;
-
     /// A gutter of flat strips around an arc of radius 4, each turned from the last by `angle` degrees.
     fn gutter(angle: f64) -> Rigid {
         let at = |k: f64, y: f64| {

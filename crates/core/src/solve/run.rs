@@ -14,7 +14,7 @@ use super::rigid::free_motions;
 use super::schedule::Step;
 use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability, Turn, softens};
-use crate::system::{Caution, Energies, Interpenetration, State, Unevenness, Workspace};
+use crate::system::{Caution, Energies, Evaluation, Interpenetration, State, Unevenness, Workspace};
 use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
 
@@ -513,13 +513,7 @@ impl<'a> Run<'a> {
         if now.abs() > before.abs() {
             state.unresolved_work += 0.5 * CUBIC * (now - before).abs();
         }
-        let places = (0..state.last_change.len()).filter(|&dof| !self.problem.dofs.is_rotation(dof));
-        let moved = newton::largest(places.map(|dof| state.last_change[dof]));
-        let driven = 0.5 * (before + now - [&state.load, &evaluation.load].map(|load| along(load)).iter().sum::<f64>());
-        let across: f64 = evaluation.energies.iter().map(|energies| energies.across).sum();
-        // What nothing holds, and what a load brings over a gap, sets free what is missing.
-        let close = moved <= CLOSE * self.problem.cell_size || across.abs() <= driven.abs();
-        let counts = converged.held.is_empty() && close;
+        let counts = converged.held.is_empty() && brings_over_gaps(self.problem, state, &evaluation);
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
             if !converged.held.is_empty() {
@@ -574,6 +568,23 @@ fn added(mut forces: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     forces.sort_by_key(|(dof, _)| *dof);
     let sum = |group: &[(usize, f64)]| (group[0].0, group.iter().map(|(_, force)| force).sum());
     forces.chunk_by(|a, b| a.0 == b.0).map(sum).filter(|(_, force)| *force != 0.0).collect()
+}
+
+/// Whether prescribed motions bring over the gaps of an increment what opens or closes in it, or what moves lay close: what a load brings over a gap has set free
+/// what is missing.
+fn brings_over_gaps(problem: &Problem, state: &State, evaluation: &Evaluation) -> bool {
+    let across: f64 = evaluation.energies.iter().map(|energies| energies.across).sum();
+    if across == 0.0 {
+        return true;
+    }
+    let places = (0..state.last_change.len()).filter(|&dof| !problem.dofs.is_rotation(dof));
+    let close = newton::largest(places.map(|dof| state.last_change[dof])) <= CLOSE * problem.cell_size;
+    let reaction = |internal: &[f64], load: &[f64]| -> f64 {
+        let forces = internal.iter().zip(load).map(|(internal, load)| internal - load);
+        forces.zip(&state.last_change).map(|(force, change)| force * change).sum()
+    };
+    let driven = 0.5 * (reaction(&state.internal, &state.load) + reaction(&evaluation.internal, &evaluation.load));
+    close || across.abs() <= driven.abs()
 }
 
 /// Energy that came from outside and that no term has taken up.

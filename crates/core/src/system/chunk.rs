@@ -140,11 +140,8 @@ impl Chunk {
         }
         self.branches.push((branch, stencil.choice));
         self.forces.extend_from_slice(&local.force);
-        self.energies.stored += local.stored;
-        self.energies.dissipated += local.dissipated;
-        self.energies.supplied += local.supplied;
-        self.energies.residue += local.residue;
-        self.energies.across += local.across;
+        let Local { stored, dissipated, supplied, residue, across, .. } = *local;
+        self.energies += Energies { stored, dissipated, supplied, residue, across };
         Ok(())
     }
 }

@@ -98,14 +98,9 @@ impl Parcels {
         into.branches.clear();
         into.branches
             .extend(next(list.len()).iter().zip(list).map(|(branch, stencil)| (*branch as u8, stencil.choice)));
-        let energies = next(5);
-        into.energies = Energies {
-            stored: energies[0],
-            dissipated: energies[1],
-            supplied: energies[2],
-            residue: energies[3],
-            across: energies[4],
-        };
+        if let &[stored, dissipated, supplied, residue, across] = next(5) {
+            into.energies = Energies { stored, dissipated, supplied, residue, across };
+        }
     }
 }
 

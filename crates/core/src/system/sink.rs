@@ -72,12 +72,7 @@ impl<'a> Sink<'a> {
 
     fn account(&mut self, chunk: &Chunk) {
         self.out.branches[self.term].extend_from_slice(&chunk.branches);
-        let energies = &mut self.out.energies[self.term];
-        energies.stored += chunk.energies.stored;
-        energies.dissipated += chunk.energies.dissipated;
-        energies.supplied += chunk.energies.supplied;
-        energies.residue += chunk.energies.residue;
-        energies.across += chunk.energies.across;
+        self.out.energies[self.term] += chunk.energies;
     }
 
     fn add_forces(&mut self, dofs: &[usize], forces: &[f64]) {

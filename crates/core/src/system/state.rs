@@ -49,12 +49,24 @@ pub struct Energies {
     /// Dissipated energy, accumulated over accepted increments.
     pub dissipated: f64,
     /// Energy that heat supplied, overlap that was removed, and work of supports and loads that a trapezoid over the increment misses
-    /// since friction turned within it; accumulated likewise.
+    /// since friction turned within it, or has over gaps; accumulated likewise.
     pub supplied: f64,
     /// Work that a rate law neither stores nor dissipates, accumulated likewise.
     pub residue: f64,
-    /// Work that the trapezoid of supports and loads over the last increment has too much where a contact bears nothing on the way.
+    /// Work that the trapezoid of supports and loads over the last increment has too much where a contact bears nothing on the way; of a state what was
+    /// taken off `supplied` for it.
     pub across: f64,
+}
+
+impl std::ops::AddAssign for Energies {
+    fn add_assign(&mut self, other: Self) {
+        let Self { stored, dissipated, supplied, residue, across } = other;
+        self.stored += stored;
+        self.dissipated += dissipated;
+        self.supplied += supplied;
+        self.residue += residue;
+        self.across += across;
+    }
 }
 
 impl Energies {

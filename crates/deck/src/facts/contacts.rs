@@ -5,7 +5,6 @@ use crate::build::{Made, backings};
 use crate::keys::{Components, Contact};
 use crate::reader::Name;
 use crate::review::Seen;
-use asperity_core::audit::Rigid;
 use asperity_core::contact::{Backing, default_penalty};
 use asperity_core::mesh::{Side, Space};
 use asperity_core::system::Term;
@@ -39,11 +38,8 @@ fn contact_facts(made: &Made, (name, keys): (&Name, &Contact), all: &[Seen], bac
     let own = sampled(&nodes(surface));
     let (inside, distance) = match tool {
         Some(tool) => {
-            let (dofs, cell) = (&model.problem.dofs, model.problem.cell_size);
-            let flat = model.tools.get(tool).map(|flat| Rigid::plane(flat, tool, dofs, cell));
-            let solid = || model.solid_tools.get(tool).map(|solid| Rigid::space(solid, tool, dofs, cell));
-            let rigid = flat.or_else(solid);
-            let gap = |x: Vec3| rigid.as_ref().map_or(f64::INFINITY, |rigid| rigid.distance(x));
+            let audit = model.problem.audit.as_ref();
+            let gap = |x: Vec3| audit.map_or(f64::INFINITY, |audit| audit.distance(tool, x));
             let of_body: BTreeSet<usize> = model
                 .bodies
                 .iter()

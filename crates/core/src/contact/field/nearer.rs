@@ -8,7 +8,7 @@
 //!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
 //! the mean gap is nearer to that of the curved surface: around a node of a third row no other has a larger gap, and nothing is added to
-//! it and to those beside it. Nor is it to curved faces of second degree, whose nodes all carry the field.
+//! it and to those beside it. Nor is it to curved faces of second degree, which follow a round surface by themselves.
 //!
 //! What bears flattens. A contact narrower than a face has an approach that the mesh does not resolve, about that of Hertz; what it takes is no
 //! longer added, and nothing is where the contact is four fifths of a face wide. Between bulky bodies that is so almost from the beginning,
@@ -63,7 +63,7 @@ impl Configuration<'_> {
                 continue;
             }
             let closed = |node: usize| history.slot(contact.slot(node, piece))[entry::STATUS] > 0.0;
-            // By how much farther from the target than a node that bears one of those around it is, and the least of that up to two edges away.
+            // By how much farther from the target than a node that touches one of those around it is, and the least of that up to two edges away.
             let beside = |node: usize| {
                 let touches = |gap: &f64| surface.plane || *gap <= TOUCHES * contact.size_at(contact.slot(node, piece));
                 let Some(own) = gap(node).filter(touches) else { return f64::INFINITY };

@@ -188,11 +188,16 @@ impl FieldContact {
         Some((0..self.slots()).map(|slot| history.slot(slot)[entry::XI] / whole[slot / self.pieces]).collect())
     }
 
+    /// What is known of a node, for each piece of the target.
+    fn slots_of<'a>(&'a self, node: usize, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
+        (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)))
+    }
+
     /// By how much the pressure changes from node to node where all around presses, inside the surface: the differences from the mean of the
     /// neighbours over the pressures, as means, in which a single peak counts little; and the node at which it changes most. None of few nodes.
     pub fn roughness(&self, history: &History) -> Option<(f64, usize)> {
         let surface = self.surface();
-        let records = |node: usize| (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)));
+        let records = |node: usize| self.slots_of(node, history);
         let pressure = |node: usize| {
             let closed = records(node).filter(|values| values[entry::STATUS] > 0.0);
             closed.map(|values| values[entry::PRESSURE]).reduce(f64::max)
@@ -224,9 +229,8 @@ impl FieldContact {
     /// two facets: what is round is then touched later than it should be, by a good part of the approach (of Hertz, as the square of their number).
     pub fn few_facets(&self, history: &History) -> Option<f64> {
         let surface = self.surface();
-        let slots = |node: usize| (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)));
-        let closed: Vec<bool> =
-            (0..surface.nodes.len()).map(|node| slots(node).any(|values| values[entry::STATUS] > 0.0)).collect();
+        let bears = |node: usize| self.slots_of(node, history).filter(|values| values[entry::STATUS] > 0.0);
+        let closed: Vec<bool> = (0..surface.nodes.len()).map(|node| bears(node).next().is_some()).collect();
         let is_inner = |node: usize| surface.neighbours(node).all(|beside| closed[beside]);
         let bearing = || (0..closed.len()).filter(|&node| closed[node]);
         if bearing().next().is_none() || bearing().any(is_inner) {
@@ -240,7 +244,7 @@ impl FieldContact {
         };
         let rise = |node: usize| {
             let most = surface.nodes[node].support.iter().map(|&(face, _)| own[&surface.faces[face].side]);
-            let other = slots(node).filter(|values| values[entry::STATUS] > 0.0).filter_map(opposite);
+            let other = bears(node).filter_map(opposite);
             most.fold(f64::NEG_INFINITY, f64::max) + other.reduce(f64::max).unwrap_or(0.0)
         };
         let rise = bearing().map(rise).fold(f64::NEG_INFINITY, f64::max);

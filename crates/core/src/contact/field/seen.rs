@@ -3,7 +3,7 @@
 use super::configuration::{Configuration, SeenPart};
 use super::contact::FieldContact;
 use super::cover::Patch;
-use super::face::FieldFace;
+use super::face::{FieldFace, PlacedFace};
 use super::faces::{FaceRay, FacesInPlace};
 use super::stencil::{NodeSums, StencilInPlace};
 use super::support::{FieldSearch, FoundPatch, Support};
@@ -104,15 +104,17 @@ impl FieldContact {
     /// Half the distance from the middle of each face, along its inward normal, to where the ray leaves the body.
     pub(super) fn depths(&self, u: &[f64]) -> Vec<f64> {
         let boundary = self.boundary.in_place(self.site(), u);
-        let depth = |face: &FieldFace| {
-            let placed = face.placed(&self.parts.mesh, &self.parts.dofs, u);
-            let shape = face.shape(face.middle());
-            let [a, b] = shape.tangents(placed.nodes(), self.parts.surface.plane);
-            let ray = FaceRay { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
-            let least = 1e-3 * a.norm();
-            0.5 * boundary.depth(face.side, &ray, least)
-        };
+        let placed = |face: &FieldFace| face.placed(&self.parts.mesh, &self.parts.dofs, u);
+        let depth = |face: &FieldFace| self.behind((face, &placed(face)), face.middle(), &boundary);
         self.parts.surface.faces.iter().map(depth).collect()
+    }
+
+    /// The same from a place of a face.
+    fn behind(&self, (face, placed): (&FieldFace, &PlacedFace), xi: [f64; 2], boundary: &FacesInPlace) -> f64 {
+        let shape = face.shape(xi);
+        let [a, b] = shape.tangents(placed.nodes(), self.parts.surface.plane);
+        let ray = FaceRay { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
+        0.5 * boundary.depth(face.side, &ray, 1e-3 * a.norm())
     }
 
     /// How deep a patch may lie: of a surface that touches itself no deeper than half of the body behind its own middle, where that is less than
@@ -126,12 +128,10 @@ impl FieldContact {
         if !self.roles.itself || -seen.middle <= DEEP * depth {
             return depth;
         }
-        let face = before.face(seen.patch.face);
-        let [from, to] = seen.patch.near;
-        let middle = if self.parts.surface.plane { [0.5 * (from + to), 0.0] } else { face.face.middle() };
-        let at = face.at(middle);
-        let ray = FaceRay { x: at.x, n: -face.own_normal(middle) };
-        depth.min(0.5 * whole().depth(face.face.side, &ray, 1e-3 * at.tangents[0].norm()))
+        let (number, [from, to]) = (seen.patch.face, seen.patch.near);
+        let face = &self.parts.surface.faces[number];
+        let middle = if self.parts.surface.plane { [0.5 * (from + to), 0.0] } else { face.middle() };
+        depth.min(self.behind((face, &before.placed[number]), middle, whole()))
     }
 
     /// What each node sees at displacements `u`, as far as the accepted state alone tells; of the tips all feet, where that has a

@@ -23,8 +23,8 @@ pub struct FieldNode {
     /// The faces around it, each with the number of the corner that the node is.
     pub support: Vec<(usize, usize)>,
     /// Whether the surface ends here, in space, so that the node bears as a vertex where it lies deep in another body: not all edges of its
-    /// faces that meet at the node have one on either side. Of faces of second degree at its corners alone: what lies between two ends of
-    /// an edge is no node of the field. Where it goes on round a crease it does not end: a vertex of a side that slides along another body
+    /// faces that meet at the node have one on either side. Of faces of second degree at corners of the body alone, not between the ends of
+    /// an edge. Where it goes on round a crease it does not end: a vertex of a side that slides along another body
     /// would look past that.
     pub is_vertex: bool,
     /// Whether the surface crosses the axis of revolution here without a crease, so that its normal stays along the axis.

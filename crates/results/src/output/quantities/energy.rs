@@ -43,11 +43,8 @@ pub(super) fn of_bodies(source: &Source) -> Energies {
 
 fn sum(source: &Source, terms: impl Iterator<Item = usize>) -> Energies {
     let each = terms.filter_map(|term| source.state.energies.get(term));
-    each.fold(Energies::default(), |sum, e| Energies {
-        stored: sum.stored + e.stored,
-        dissipated: sum.dissipated + e.dissipated,
-        supplied: sum.supplied + e.supplied,
-        residue: sum.residue + e.residue,
-        across: sum.across + e.across,
+    each.fold(Energies::default(), |mut sum, &energies| {
+        sum += energies;
+        sum
     })
 }

@@ -574,6 +574,58 @@ motion.punch.y = -0.95
     assert_eq!(run.code(), 0, "{}", run.notes());
 }
 
+/// A cantilever of which the outer parts yield: with one brick through it that flows nowhere, since its points lie inside, and the end sinks by
+/// .853 (1.130 with four by four `hex20` across). With half of the load nothing yields, and four bricks see it.
+#[test]
+fn yield_that_no_integration_point_sees_is_told() {
+    let told = |cells: &str, load: f64| {
+        let deck = format!(
+            "version = 1
+            space = \"solid\"
+            mesh.part.b.box = {{ from = [0.0, 0.0, 0.0], to = [20.0, 1.0, 1.0], {cells} }}
+            material.m.von_mises = {{ young = 1000.0, poisson = 0.3, yield_stress = 2.0, hardening = 60.0 }}
+            body.b.material = \"m\"
+            output.pictures = false
+            [[step]]
+            displacement.\"b.left\" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+            traction.\"b.right\" = {{ y = {load:?} }}"
+        );
+        Run::of(&deck, &[]).notes().contains("reaches yield before the integration points do")
+    };
+    for (cells, load, expected) in [
+        ("cells = [10, 1, 1], cell = \"hex8\"", -0.027, true),
+        ("cells = [20, 1, 1], cell = \"tet10\"", -0.027, true),
+        ("cells = [10, 1, 1], cell = \"hex8\"", -0.0135, false),
+        ("cells = [10, 4, 2], cell = \"hex8\"", -0.027, false),
+    ] {
+        assert_eq!(told(cells, load), expected, "{cells} {load}");
+    }
+}
+
+/// Half a rubber ring of 20 cells along and two through it, squeezed flat: 1.96 times the force of 3 by 100 `quad8`, and right at half the way.
+#[test]
+fn cells_with_modes_that_bend_too_far_are_told() {
+    let told = |down: f64| {
+        let deck = format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.r.annulus = {{ from = [9.0, -90.0], to = [11.0, 90.0], cells = [2, 20], cell = \"quad4\" }}
+            material.m.neo_hookean = {{ shear = 0.8, bulk = 400.0 }}
+            body.r.material = \"m\"
+            tool.up.profile = [{{ line = [[-33.0, 11.0], [33.0, 11.0]] }}]
+            tool.down.profile = [{{ line = [[33.0, -11.0], [-33.0, -11.0]] }}]
+            contact.u = {{ surface = \"r.outer\", target = \"up\", law.coulomb.friction = 0.2 }}
+            contact.d = {{ surface = \"r.outer\", target = \"down\", law.coulomb.friction = 0.2 }}
+            output.pictures = false
+            [[step]]
+            symmetry = [\"r.start\", \"r.end\"]
+            motion.up.y = {down:?}"
+        );
+        Run::of(&deck, &[]).notes().contains("cells with incompatible modes bend so far")
+    };
+    assert!(told(-16.0) && !told(-8.0));
+}
+
 /// A strip bent to eight times the curvature at which it yields: its plastic moment is off where one cell of second degree lies through it
 /// (three Gauss points bear 0.861 of it) or cells of first degree are long, which is told; two cells of second degree are right.
 #[test]

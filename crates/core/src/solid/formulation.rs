@@ -7,7 +7,7 @@
 //! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft. One to
 //! three tetrahedra of second degree through a body share a linear change of volume with others there.
 
-use super::slenderness::{PLASTIC, STIFF, Slenderness, TWO_POINTS};
+use super::slenderness::{ONE, PLASTIC, STIFF, Slenderness, TWO_POINTS};
 use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
@@ -86,6 +86,8 @@ pub struct Choice {
     pub stiff: Option<f64>,
     /// By what part they are too stiff in bending where their solid flows all through, or with a minus too weak, where that is much.
     plastic: Option<f64>,
+    /// Whether one of them lies through a body that flows.
+    pub thin: bool,
     /// Whether they are too soft in bending.
     pub soft: bool,
     /// Whether, as tetrahedra of second degree, a few of them share a linear change of volume.
@@ -146,6 +148,7 @@ impl Choice {
             locks,
             stiff: None,
             plastic: None,
+            thin: false,
             soft: false,
             joined: false,
             layers,
@@ -177,6 +180,7 @@ impl Choice {
             self = self.with_formulation(&body, bonded, options);
         }
         let plastic = body.plastic(self.kind, self.formulation, self.integration);
+        self.thin = self.flows && !bonded && body.through < ONE;
         let told = bonded || self.soft || self.stiff.is_some();
         self.plastic = Some(plastic).filter(|part| self.flows && !told && part.abs() > PLASTIC);
         self
@@ -192,7 +196,7 @@ impl Choice {
             let part = (100.0 * stiff.abs()).ceil();
             self.reason =
                 format!("reduced integration, since its cells are curved: {how} by up to {part} % where it bends");
-            if self.flows && body.through < 1.5 {
+            if self.flows && body.through < ONE {
                 self.reason +=
                     &format!("; with one through it the plastic moment is {:.0} % too large", 100.0 * TWO_POINTS);
             }
@@ -235,6 +239,15 @@ impl Choice {
             ),
         };
         Some(format!("where it bends, and flows all through, its {name} cells are {why}"))
+    }
+
+    /// What is to be known where it begins to flow at its surface, between which and the outermost points little does.
+    pub fn late_yield(&self) -> String {
+        let name = self.kind.name;
+        format!(
+            "one {name} lies through it, and where it bends its surface reaches yield before the integration points do: until it flows all \
+             through it may be wrong by a quarter; two cells of second degree through it, or four of first, are right"
+        )
     }
 
     /// What is to be known where the cells lock.

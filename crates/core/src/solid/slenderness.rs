@@ -1,7 +1,7 @@
 //! How long and how thick the cells of a body are, against its own thickness, how much they taper and how far they are curved: what
 //! cells get wrong in bending.
 
-use super::{Body, Formulation, Integration, incompatible};
+use super::{Body, Choice, Formulation, Integration, incompatible};
 use crate::mesh::cells::Cell;
 use crate::mesh::{CREASE, CellView, Mesh, Side, median};
 use crate::tensor::{Tensor2, Vec3};
@@ -51,6 +51,8 @@ const CURVED: f64 = 0.025;
 pub(super) const TWO_POINTS: f64 = 0.155;
 /// Part by which it is too small with three, `1 - 10/9 sqrt(3/5)`.
 const THREE_POINTS: f64 = 0.139;
+/// Cells through a body below which one lies through it.
+pub(super) const ONE: f64 = 1.5;
 /// Part by which a plastic moment may be wrong without a word.
 pub(super) const PLASTIC: f64 = 0.05;
 
@@ -127,9 +129,10 @@ impl Slenderness {
     pub fn plastic(&self, kind: &Cell, formulation: Formulation, integration: Integration) -> f64 {
         let simplex = matches!(kind.name, "tri6" | "tet10");
         match (kind.degree, formulation) {
+            (1, Formulation::Incompatible) if self.through < ONE => TWO_POINTS + 0.3 * self.along,
             (1, Formulation::Incompatible) => 0.3 * self.along,
             (1, _) => self.stiff(kind, formulation),
-            _ if self.through > 1.5 || simplex => 0.0,
+            _ if self.through > ONE || simplex => 0.0,
             _ if integration == Integration::Reduced => TWO_POINTS,
             _ => -THREE_POINTS,
         }
@@ -148,7 +151,7 @@ impl Slenderness {
     /// of second degree without a node in the middle, for those with one have a mechanism, as bricks have in a stack that is one wide.
     /// With one of them through a body that `flows` two points carry too much of it.
     pub fn reduces(&self, kind: &Cell, wrong: f64, flows: bool) -> bool {
-        let least = if flows && self.through < 1.5 { TWO_POINTS } else { CURVED };
+        let least = if flows && self.through < ONE { TWO_POINTS } else { CURVED };
         matches!(kind.name, "quad8" | "hex20") && !self.alone && wrong.abs() > least
     }
 
@@ -288,36 +291,78 @@ fn ways(mesh: &Mesh, side: Side) -> [Vec3; 2] {
 /// energy.
 const VARIES: f64 = 1e-3;
 
+/// Part by which the force of a body whose cells have incompatible modes is too large over the square of the strain by which they bend, half
+/// of the difference of those on both sides of a cell: of rings and folds of rubber with two of them through, 4 to 12.
+const BENT: f64 = 5.0;
+
+/// Such a part that is taken without a word.
+const FAR: f64 = 0.05;
+
+/// What the displacements of a cell's nodes are besides those of an even strain.
+struct Rest {
+    /// Where the nodes are from the middle of the cell, undeformed and as the even strain puts them.
+    from: Vec<Vec3>,
+    even: Vec<Vec3>,
+    /// How far they are from there.
+    left: Vec<Vec3>,
+    /// The even strain.
+    strain: f64,
+}
+
 impl Body {
+    fn rest(&self, cell: usize, u: &[f64]) -> Rest {
+        let view = self.mesh.cell(cell);
+        let x: Vec<Vec3> = view.nodes.iter().map(|&node| self.mesh.points[node]).collect();
+        let moved = |&node: &usize| {
+            let mut moved = Vec3::zero();
+            self.dofs.displacements(node).enumerate().for_each(|(axis, dof)| moved[axis] = u[dof]);
+            moved
+        };
+        let moved: Vec<Vec3> = view.nodes.iter().map(moved).collect();
+        let nodes: Vec<usize> = (0..x.len()).collect();
+        let at_middle = |points: &[Vec3]| CellView { kind: view.kind, nodes: &nodes }.map(points, view.kind.center());
+        let ((middle, mut to), (still, by)) = (at_middle(&x), at_middle(&moved));
+        if view.kind.dimension == 2 {
+            to[2] = Vec3::axis(2);
+        }
+        let gradient = Tensor2::from_fn(|i, a| by[a][i]) * Tensor2::from_fn(|i, a| to[a][i]).inverse();
+        let strain = gradient.sym() + gradient.transpose() * gradient * 0.5;
+        let from: Vec<Vec3> = x.iter().map(|x| *x - middle).collect();
+        let even: Vec<Vec3> = from.iter().map(|from| *from + gradient * *from).collect();
+        let left = (0..x.len()).map(|node| x[node] + moved[node] - middle - still - even[node]).collect();
+        Rest { from, even, left, strain: strain.contract(strain).sqrt() }
+    }
+
     /// Whether the strain of some cell varies within it at unknowns `u`, as it does in bending; in one that stretches or shears evenly no
     /// cell is too stiff. A body without strain may have bent before.
     pub fn bends(&self, u: &[f64]) -> bool {
         let (mut varies, mut most) = (0.0_f64, 0.0_f64);
-        for &cell in &self.cells {
-            let view = self.mesh.cell(cell);
-            let x: Vec<Vec3> = view.nodes.iter().map(|&node| self.mesh.points[node]).collect();
-            let moved = |&node: &usize| {
-                let mut moved = Vec3::zero();
-                self.dofs.displacements(node).enumerate().for_each(|(axis, dof)| moved[axis] = u[dof]);
-                moved
-            };
-            let moved: Vec<Vec3> = view.nodes.iter().map(moved).collect();
-            let nodes: Vec<usize> = (0..x.len()).collect();
-            let at_middle =
-                |points: &[Vec3]| CellView { kind: view.kind, nodes: &nodes }.map(points, view.kind.center());
-            let ((middle, mut to), (still, by)) = (at_middle(&x), at_middle(&moved));
-            if view.kind.dimension == 2 {
-                to[2] = Vec3::axis(2);
-            }
-            let gradient = Tensor2::from_fn(|i, a| by[a][i]) * Tensor2::from_fn(|i, a| to[a][i]).inverse();
-            let strain = gradient.sym() + gradient.transpose() * gradient * 0.5;
-            most = most.max(strain.contract(strain).sqrt());
-            for (x, moved) in x.iter().zip(&moved) {
-                let left = *moved - still - gradient * (*x - middle);
-                varies = varies.max(left.norm() / (*x - middle).norm());
-            }
+        for Rest { from, left, strain, .. } in self.cells.iter().map(|&cell| self.rest(cell, u)) {
+            most = most.max(strain);
+            varies = left.iter().zip(&from).fold(varies, |varies, (left, from)| varies.max(left.norm() / from.norm()));
         }
         most == 0.0 || varies > VARIES * most
+    }
+
+    /// By what part the force of a body is too large whose cells have incompatible modes and bend far at unknowns `u`, where that is much:
+    /// modes make the strain of a cell linear, which in a tight fold it is not.
+    pub fn too_far_bent(&self, u: &[f64]) -> Option<f64> {
+        let (mut energy, mut excess) = (0.0, 0.0);
+        let modes = |kind: &Cell| {
+            let of = |choice: &&Choice| choice.kind == kind && choice.formulation == Formulation::Incompatible;
+            self.choices().iter().any(|choice| of(&choice))
+        };
+        for &cell in self.cells.iter().filter(|&&cell| modes(self.mesh.cell(cell).kind)) {
+            let Rest { even, left, .. } = self.rest(cell, u);
+            let bent = |[a, b]: [usize; 2]| {
+                let edge = even[b] - even[a];
+                (left[b] - left[a]).dot(edge).abs() / edge.dot(edge)
+            };
+            let square = self.mesh.cell(cell).kind.edges().map(bent).fold(0.0, f64::max).powi(2);
+            energy += square * self.mesh.measure(cell);
+            excess += BENT * square * square * self.mesh.measure(cell);
+        }
+        Some(excess / energy).filter(|part| *part > FAR)
     }
 }
 

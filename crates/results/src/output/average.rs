@@ -9,7 +9,7 @@ use asperity_core::tensor::inverse;
 use std::collections::BTreeMap;
 
 /// For each node of a cell the weights of the values at its integration points.
-type Extrapolation = Vec<Vec<f64>>;
+pub type Extrapolation = Vec<Vec<f64>>;
 
 /// Means at the nodes of a mesh, gathered cell by cell.
 pub struct NodalMean<'a> {
@@ -79,7 +79,7 @@ fn within(value: f64, others: impl Iterator<Item = f64>) -> f64 {
 const RANK: f64 = 1e-10;
 
 /// Least squares in the shape functions of the corners; the plain mean where the points are too few for them.
-fn extrapolation(kind: &Cell, rule: &Quadrature) -> Extrapolation {
+pub fn extrapolation(kind: &Cell, rule: &Quadrature) -> Extrapolation {
     let corners = kind.linear.nodes.len();
     let at_points: Vec<Vec<f64>> = rule.points.iter().map(|&xi| corner_functions(kind, xi)).collect();
     let normal: Vec<Vec<f64>> =

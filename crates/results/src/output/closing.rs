@@ -3,6 +3,7 @@
 
 use super::Reading;
 use super::account::Account;
+use super::average::extrapolation;
 use super::certificate::{Certificate, Limits};
 use super::quantities::{Parts, Touching};
 use super::summary::Summary;
@@ -35,9 +36,43 @@ fn locking(body: &Body, state: &State, term: usize) -> Vec<String> {
         return Vec::new();
     }
     let (energies, choices) = (state.energies[term], body.choices().iter());
-    let flowed = choices.clone().filter(|_| energies.dissipated > energies.stored).filter_map(Choice::plastic_bending);
-    let advice = choices.flat_map(Choice::advice).chain(flowed);
+    let flowed = energies.dissipated > energies.stored;
+    let all_through = choices.clone().filter(|_| flowed).filter_map(Choice::plastic_bending);
+    let thin = choices.clone().find(|choice| choice.thin && !flowed);
+    let late = thin.filter(|choice| yields_late(body, choice, state, term)).map(Choice::late_yield);
+    let far = body.too_far_bent(&state.u).map(|part| {
+        format!(
+            "cells with incompatible modes bend so far in it that its force is too large by some {:.0} %, and more where they are long: strain \
+             is not linear through such cells; more of them through it, or cells of second degree, follow it",
+            100.0 * part
+        )
+    });
+    let advice = choices.flat_map(Choice::advice).chain(all_through).chain(late).chain(far);
     advice.map(|advice| format!("body '{}': {advice}", body.name())).collect()
+}
+
+/// Part of its cells at whose surface a body may pass yield without a word.
+const LATE: f64 = 0.05;
+
+/// Whether the stress at the corners of more than a few cells of a kind, by least squares from their points, is more than the law bears.
+fn yields_late(body: &Body, choice: &Choice, state: &State, term: usize) -> bool {
+    let (kind, material) = (choice.kind, body.material());
+    let weights = extrapolation(kind, body.rule(kind));
+    let records: Vec<_> = body.records(&state.u, &state.histories[term]).collect();
+    let (mut late, mut cells, mut at_corner) = (0, 0, vec![0.0; material.state_len()]);
+    for points in records.chunk_by(|one, next| one.cell == next.cell).filter(|points| points.len() == weights[0].len())
+    {
+        cells += 1;
+        let mut beyond = |weights: &Vec<f64>| {
+            at_corner.copy_from_slice(points[0].state);
+            for (component, value) in at_corner[..6].iter_mut().enumerate() {
+                *value = points.iter().zip(weights).map(|(point, weight)| weight * point.state[component]).sum();
+            }
+            material.bears(&at_corner).is_err()
+        };
+        late += usize::from(weights[..kind.linear.nodes.len()].iter().any(&mut beyond));
+    }
+    late as f64 > LATE * cells as f64
 }
 
 /// Part of their force by which two sides of a contact may differ without a word.

@@ -574,6 +574,26 @@ motion.punch.y = -0.95
     assert_eq!(run.code(), 0, "{}", run.notes());
 }
 
+/// Of materials that a deck lists, a body may have any: what is said of it at the end is its own.
+#[test]
+fn a_body_may_have_the_last_of_some_materials() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.a.rectangle = { from = [0.0, 0.0], to = [4.0, 1.0], cells = [4, 2], cell = "quad4" }
+material.none.elastic = { young = 1.0, poisson = 0.3 }
+material.other.elastic = { young = 2.0, poisson = 0.3 }
+material.steel.von_mises = { young = 200e3, poisson = 0.3, yield_stress = 200.0 }
+body.a.material = "steel"
+output.pictures = false
+[[step]]
+displacement."a.left" = { x = 0.0, y = 0.0 }
+displacement."a.right" = { x = 0.0, y = 0.3 }
+"#;
+    let run = Run::of(deck, &[]);
+    assert_eq!(run.code(), 0, "{}", run.notes());
+}
+
 /// A cantilever of which the outer parts yield: with one brick through it that flows nowhere, since its points lie inside, and the end sinks by
 /// .853 (1.130 with four by four `hex20` across). With half of the load nothing yields, and four bricks see it.
 #[test]

@@ -23,7 +23,8 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     }
     summary.notes.extend(rough(model, &run.state));
     summary.notes.extend(few_facets(model, &run.state));
-    summary.notes.extend(model.bodies.iter().flat_map(|(body, term)| locking(body, &run.state, *term)));
+    let bodies = Parts::of(model).bodies;
+    summary.notes.extend(bodies.iter().flat_map(|(term, body)| locking(body, &run.state, *term)));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
     summary.notes.extend(rests(certificate, model.space));

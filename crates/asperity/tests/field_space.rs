@@ -132,6 +132,10 @@ fn tangents_over_tools_are_exact() {
             "corner",
             "{ facets = { nodes = [[-3.0, 0.0, -3.0], [0.3, -0.01, 6.0], [1.1, 0.01, 0.3]], faces = [[1, 2, 3]] } }",
         ),
+        (
+            "ridge",
+            "{ profile = [{ line = [[1.7, -1.0], [0.73, 0.01]] }, { line = [[0.73, 0.01], [-0.3, -1.0]] }], extrude = { origin = [0.0, 0.0, -0.5], along = [0.02, 0.0, 2.0] } }",
+        ),
     ];
     for (name, tool) in tools {
         for cell in ["hex8", "hex20", "tet10"] {
@@ -222,6 +226,11 @@ fn tangents_over_tools_that_turn_are_exact() {
             "rim",
             "{ cylinder = { from = [0.7, -1.0, 0.45], to = [0.7, 0.03, 0.45], radius = 0.57 }, reference = [0.7, 0.0, 0.45] }",
             [0.0, 0.5, 0.0],
+        ),
+        (
+            "ridge",
+            "{ profile = [{ line = [[1.7, -1.0], [0.73, 0.01]] }, { line = [[0.73, 0.01], [-0.3, -1.0]] }], extrude = { origin = [0.0, 0.0, -0.5], along = [0.02, 0.0, 2.0] }, reference = [0.7, 0.0, 0.45] }",
+            [0.01, 0.3, 0.2],
         ),
     ];
     for (name, tool, turn) in tools {

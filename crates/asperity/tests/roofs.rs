@@ -1,4 +1,4 @@
-//! Obtuse vertices of a tool in the plane: a roof that is pressed into a block and slides over it.
+//! Obtuse vertices of a tool in the plane, and edges in space: a roof that is pressed into a block and slides over it.
 
 mod support;
 
@@ -46,6 +46,58 @@ fn a_vertex_presses_along_the_normal_of_what_it_slides_over() {
                     "{flanks:?}: {x} {y}, {sharp_x} {sharp_y}"
                 );
                 assert!(x.abs() < (friction + 0.15) * y.abs(), "{flanks:?}: {x} {y}");
+            }
+        }
+    }
+}
+
+/// Forces on a wedge with flanks of so many degrees, right and up, for a unit of depth, pressed by a part of an edge into a layer of cells.
+fn layer(space: &str, flank: f64, [at, down]: [f64; 2]) -> [f64; 2] {
+    let wide = 5.0 / flank.to_radians().tan();
+    let profile =
+        format!("[{{ line = [[{}, 8.0], [{at}, 3.0]] }}, {{ line = [[{at}, 3.0], [{}, 8.0]] }}]", at - wide, at + wide);
+    let (mesh, tool, held) = match space {
+        "solid" => (
+            "box = { from = [0.0, 0.0, 0.0], to = [10.0, 3.0, 0.7], cells = [20, 6, 1], cell = \"hex8\" }",
+            format!("{{ profile = {profile}, extrude = {{ origin = [0.0, 0.0, -1.0], along = [0.0, 0.0, 3.0] }} }}"),
+            "symmetry = [\"block.front\", \"block.back\"]",
+        ),
+        _ => (
+            "rectangle = { from = [0.0, 0.0], to = [10.0, 3.0], cells = [20, 6], cell = \"quad4\" }",
+            format!("{{ profile = {profile} }}"),
+            "",
+        ),
+    };
+    let deck = format!(
+        r#"
+version = 1
+space = "{space}"
+mesh.part.block.{mesh}
+material.elastic.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block.material = "elastic"
+tool.wedge = {tool}
+contact.top = {{ surface = "block.top", target = "wedge", law.coulomb.friction = 0.1 }}
+[[step]]
+{held}
+displacement."block.bottom" = {{ x = 0.0, y = 0.0 }}
+motion.wedge.y = -{down}
+"#
+    );
+    let model = model(&deck, &[]);
+    let columns = columns(&model, &run(&model));
+    let depth = if space == "solid" { 0.7 } else { 1.0 };
+    ["x", "y"].map(|axis| columns[&format!("contact.top.force.{axis}")].last().unwrap() / depth)
+}
+
+/// In space nodes alone had felt nothing of a wedge at .3 of a cell, half of its force in the middle of a face at .8, and that along one flank.
+#[test]
+fn an_edge_in_space_is_a_vertex_in_the_plane() {
+    for flank in [30.0, 45.0] {
+        for at in [3.0, 3.1, 3.25] {
+            for down in [0.15, 0.4] {
+                let [plane, solid] = ["plane-strain", "solid"].map(|space| layer(space, flank, [at, down]));
+                let apart = (plane[0] - solid[0]).abs() + (plane[1] - solid[1]).abs();
+                assert!(apart < 0.02 * plane[1].abs(), "{flank} {at} {down}: {plane:?} {solid:?}");
             }
         }
     }

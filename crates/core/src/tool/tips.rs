@@ -23,12 +23,18 @@ pub struct Tip {
     pub flanks: [Vec3; 2],
     /// Cosine of the largest angle between `outward` and a direction in which it points.
     pub least_cosine: f64,
+    /// In space the length of the edge that it stands for.
+    pub length: f64,
 }
 
 /// Cosine by which a direction may lie beyond the end of an arc, for rounding.
 const AT_FLANK: f64 = 1e-6;
 
 impl Tip {
+    /// One on an edge.
+    pub(super) fn on_edge(centre: Vec3, outward: Vec3, flanks: [Vec3; 2], length: f64) -> Self {
+        Self { centre, radius: 0.0, outward, flanks, least_cosine: POINTS, length }
+    }
     /// Its foremost point, in the tool's own frame.
     pub fn foremost(&self) -> Vec3 {
         self.centre + self.outward * self.radius
@@ -42,8 +48,7 @@ impl ProfileTool {
     /// Its tips: sharp edges, free ends and arcs that turn outward.
     pub fn tips(&self) -> Vec<Tip> {
         let mut tips = Vec::new();
-        let mut edge =
-            |centre, outward, flanks| tips.push(Tip { centre, radius: 0.0, outward, flanks, least_cosine: POINTS });
+        let mut edge = |centre, outward, flanks| tips.push(Tip::on_edge(centre, outward, flanks, 0.0));
         let mut arcs: Vec<Rounding> = Vec::new();
         for chain in self.chains() {
             for (one, next) in chain.joints() {
@@ -129,6 +134,7 @@ impl Rounding {
             flanks: [(begin, self.ends[0]), (end, self.ends[1])]
                 .map(|(normal, ends)| if whole || ends { Vec3::zero() } else { normal }),
             least_cosine: if whole { -2.0 } else { (0.5 * self.turn).cos() - AT_FLANK },
+            length: 0.0,
         }
     }
 }

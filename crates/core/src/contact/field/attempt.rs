@@ -174,7 +174,7 @@ impl FieldAttempt<'_> {
         if patch.tip.is_some() {
             let (number, landing) = self.before_tip(patch)?;
             let face = &self.contact.parts.surface.faces[number];
-            let shape = face.shape([landing.xi, 0.0]);
+            let shape = face.shape(landing.xi);
             let (now, tip) = (shape.value(at.placed(face).nodes()), at.tool.as_ref()?.place(landing.own));
             let face = Some((number, shape));
             return Some(Touched { now, slopes: [Vec3::zero(); 2], facing: None, face, tip });

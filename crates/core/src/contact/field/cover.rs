@@ -45,8 +45,9 @@ impl Patch {
     }
 }
 
-/// Most places of the surface that one tip touches: in a valley both sides, what lies between them, and what follows.
-pub const FEET: usize = 5;
+/// Most places of the surface that one tip touches: in a valley both sides, what lies between them, and what follows; in space the faces around
+/// a node.
+pub const FEET: usize = 8;
 
 /// Where a tip touches the face beside one that it lies over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +66,9 @@ pub struct FootBeside {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Landing {
     /// The place of the face that is closest, roughly.
-    pub xi: f64,
+    pub xi: [f64; 2],
+    /// In space the length of the tool's edge that it stands for.
+    pub length: f64,
     /// The corner of the face that is closest, where the tip lies in a valley.
     pub corner: Option<usize>,
     /// The corner that it lies over where the surface ends, as on a plane or axis of symmetry.

@@ -28,6 +28,7 @@ pub(super) mod configuration;
 mod contact;
 mod cover;
 mod dual;
+mod edge;
 pub(super) mod face;
 pub(super) mod faces;
 mod linear;

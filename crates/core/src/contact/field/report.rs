@@ -177,7 +177,7 @@ impl FieldContact {
         Some(if seen > 0.0 { force / seen } else { 1.0 })
     }
 
-    /// The part of its faces on which a node lies over a piece of a tool in space, slot by slot.
+    /// The part of its faces on which a node lies over a piece of a tool in space, slot by slot; all of it for a tip.
     pub(super) fn shares(&self, history: &History) -> Option<Vec<f64>> {
         let (surface, mesh) = (self.surface(), self.mesh());
         self.parts.target.as_tool().filter(|_| !surface.plane)?;
@@ -185,7 +185,8 @@ impl FieldContact {
             surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
         };
         let whole: Vec<f64> = surface.nodes.iter().map(|node| node.support.iter().map(area).sum()).collect();
-        Some((0..self.slots()).map(|slot| history.slot(slot)[entry::XI] / whole[slot / self.pieces]).collect())
+        let share = |slot: usize| self.node_of(slot).map_or(1.0, |node| history.slot(slot)[entry::XI] / whole[node]);
+        Some((0..self.slots()).map(share).collect())
     }
 
     /// What is known of a node, for each piece of the target.

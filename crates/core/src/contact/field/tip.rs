@@ -32,6 +32,7 @@ use crate::mesh::Side;
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::Tip;
+use std::cell::OnceCell;
 
 /// What the search finds of a tip.
 #[derive(Debug, Clone, Copy)]
@@ -59,23 +60,23 @@ const STARTS: [f64; 3] = [-0.5, 0.0, 0.5];
 
 /// A place of the surface that a tip may touch.
 #[derive(Debug, Clone, Copy)]
-struct TipPlace {
-    face: usize,
-    xi: f64,
+pub(super) struct TipPlace {
+    pub face: usize,
+    pub xi: [f64; 2],
     /// The corner of the face that is nearer.
-    nearer: usize,
+    pub nearer: usize,
     /// As those of a [`Landing`].
-    corner: Option<usize>,
-    border: Option<usize>,
+    pub corner: Option<usize>,
+    pub border: Option<usize>,
     /// At the end of the surface, the outward normal that the face had there.
-    rest: Option<Vec3>,
+    pub rest: Option<Vec3>,
     /// What touches it: the tip's own centre, or the end of its arc, and the radius about that.
-    centre: Vec3,
-    radius: f64,
+    pub centre: Vec3,
+    pub radius: f64,
     /// Direction of the gap, the distance of the tip's centre along it, and the gap.
-    n: Vec3,
-    q: f64,
-    gap: f64,
+    pub n: Vec3,
+    pub q: f64,
+    pub gap: f64,
 }
 
 /// An edge with its position and tangents along it.
@@ -163,9 +164,16 @@ impl Configuration<'_> {
     ) -> Vec<Option<TipFoot>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let mut feet = vec![None; FEET * self.contact.tips().len()];
+        let faces = OnceCell::new();
         for (number, tip) in self.contact.tips().iter().enumerate() {
-            let found = self.places(tip, tool, reach);
-            let places = self.touched(&found, tip.radius);
+            let (found, places) = if self.contact.parts.surface.plane {
+                let found = self.places(tip, tool, reach);
+                let places = self.touched(&found, tip.radius);
+                (found, places)
+            } else {
+                let found = self.places_in_space((tip, tool), reach, faces.get_or_init(|| self.tree()));
+                (found.iter().take(1).copied().collect(), found)
+            };
             let first = FEET * number;
             let last = |before: &[Option<TipFoot>]| {
                 let feet = before.get(first..first + FEET)?;
@@ -186,8 +194,8 @@ impl Configuration<'_> {
             for (place, foot) in pairs {
                 let has_foot = feet[first..first + FEET].iter().flatten().any(|f: &TipFoot| f.patch.face == place.face);
                 if feet[foot].is_none() && !has_foot {
-                    let tip = Some(self.landing(place, &places, tool, share));
-                    let patch = Patch { near: [place.xi; 2], tip, ..Patch::whole(place.face, foot) };
+                    let tip = Some(self.landing((place, tip.length), &places, tool, share));
+                    let patch = Patch { near: [place.xi[0]; 2], tip, ..Patch::whole(place.face, foot) };
                     feet[foot] = Some(TipFoot { patch, gap: place.gap });
                 }
             }
@@ -195,18 +203,27 @@ impl Configuration<'_> {
         feet
     }
 
-    fn landing(&self, place: &TipPlace, places: &[TipPlace], tool: &ToolInPlace, share: f64) -> Landing {
+    fn landing(
+        &self,
+        (place, length): (&TipPlace, f64),
+        places: &[TipPlace],
+        tool: &ToolInPlace,
+        share: f64,
+    ) -> Landing {
         let &TipPlace { face, xi, corner, border, centre, radius, .. } = place;
         let own = centre - tool.rotate_back(place.n) * radius;
         let surface = &self.contact.parts.surface;
         let beside = [0, 1].map(|corner| {
+            if !surface.plane {
+                return None;
+            }
             let node = surface.field[face][corner];
             let at_node = |other: &&TipPlace| other.face != face && surface.field[other.face][..2].contains(&node);
             let other = places.iter().find(at_node)?;
             let corner = usize::from(surface.field[other.face][1] == node);
-            Some(FootBeside { face: other.face, corner, xi: other.xi, centre: other.centre })
+            Some(FootBeside { face: other.face, corner, xi: other.xi[0], centre: other.centre })
         });
-        Landing { xi, corner, border, share, own, centre, radius, beside }
+        Landing { xi, length, corner, border, share, own, centre, radius, beside }
     }
 
     /// The places of the surface that a tip may touch, of those that it points at, closest first.
@@ -237,6 +254,7 @@ impl Configuration<'_> {
                 let n = if corner.is_some() { facing_centre(to, n) } else { n };
                 let gap = to.dot(n) - radius;
                 let q = gap + tip.radius;
+                let xi = [xi, 0.0];
                 found.push(TipPlace { face: f, xi, nearer, corner, border, rest, centre, radius, q, n, gap });
             };
             match corner {
@@ -299,14 +317,15 @@ impl Configuration<'_> {
     }
 
     /// Whether two faces of the surface have a node of the field in common.
-    fn adjoin(&self, one: usize, other: usize) -> bool {
-        let [one, other] = [one, other].map(|f| &self.contact.parts.surface.field[f][..2]);
+    pub(super) fn adjoin(&self, one: usize, other: usize) -> bool {
+        let surface = &self.contact.parts.surface;
+        let [one, other] = [one, other].map(|f| &surface.field[f][..surface.faces[f].corners()]);
         one.iter().any(|node| other.contains(node))
     }
 
     /// Curvature of the surface around a place, from the turns between the middles of its face and of those beside it, times the radius of a
     /// rounding about `centre`. Where the surface ends beneath that, as on a plane of symmetry, its mirror image is beside it.
-    fn conformity(&self, &TipPlace { face: f, xi, q, .. }: &TipPlace, centre: Vec3, radius: f64) -> f64 {
+    fn conformity(&self, &TipPlace { face: f, xi: [xi, _], q, .. }: &TipPlace, centre: Vec3, radius: f64) -> f64 {
         let surface = &self.contact.parts.surface;
         if radius == 0.0 || q <= 0.0 {
             return 0.0;
@@ -350,7 +369,11 @@ impl Configuration<'_> {
         let (&TipPlace { face: f, nearer: corner, rest, .. }, radius) = (place, tip.radius);
         let flanks = tip.flanks.map(|flank| tool.rotate(flank));
         let surface = &self.contact.parts.surface;
-        let area = |f: usize| middle_tangent(&surface.faces[f], &self.placed[f]).cross(Vec3::axis(2));
+        let area = |f: usize| {
+            let face = &surface.faces[f];
+            let [a, b] = face.shape(face.middle()).tangents(self.placed[f].nodes(), surface.plane);
+            a.cross(b)
+        };
         let support = &surface.nodes[surface.field[f][corner]].support;
         let both = support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
         let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
@@ -379,6 +402,15 @@ impl FieldContact {
         [area, 2.0 * within * slope - xi.signum() * rise * (2.0 * density - half)]
     }
 
+    /// The area that a tip has in a face of which it has all.
+    fn whole_area(&self, f: usize, landing: &Landing) -> f64 {
+        if self.parts.surface.plane {
+            self.tip_area(f, landing.xi[0])[0] * landing.part()
+        } else {
+            self.edge_area(f, landing)[0]
+        }
+    }
+
     /// The faces on which the feet of the tips lay in an accepted state.
     pub(super) fn known_feet<'a>(&'a self, history: &'a History) -> impl Fn(usize) -> Option<usize> + 'a {
         let face = |foot: usize| history.slot(self.nodal_slots() + foot)[entry::SEGMENT];
@@ -394,7 +426,7 @@ impl FieldContact {
             let has = |(foot, found): (usize, &Option<TipFoot>)| {
                 let &TipFoot { patch: Patch { face, tip, .. }, gap } = found.as_ref()?;
                 let (landing, values) = (tip?, history.slot(self.nodal_slots() + FEET * number + foot));
-                let whole = self.tip_area(face, landing.xi)[0] * landing.part();
+                let whole = self.whole_area(face, &landing);
                 if values[entry::STATUS] > 0.0 {
                     return (whole > 0.0).then(|| values[entry::XI] / whole);
                 }
@@ -414,7 +446,7 @@ impl Landing {
     /// The part of the weight that the place has among those beside it.
     fn part(&self) -> f64 {
         let part = |(corner, beside): (usize, &Option<FootBeside>)| {
-            beside.map_or(1.0, |other| part([(corner, self.xi), (other.corner, other.xi)])[0])
+            beside.map_or(1.0, |other| part([(corner, self.xi[0]), (other.corner, other.xi)])[0])
         };
         self.beside.iter().enumerate().map(part).product()
     }
@@ -486,7 +518,7 @@ impl NodesInPlace<'_> {
             let at = edge.at(xi);
             FootInPlace { nodes: &face.nodes, xi, centre, to: centre - at.x, at }
         };
-        let own = foot(patch.face, (landing.xi, landing.corner.or(landing.border)), landing.centre);
+        let own = foot(patch.face, (landing.xi[0], landing.corner.or(landing.border)), landing.centre);
         let area = contact.tip_area(patch.face, own.xi);
         let n = outward(own.at.tangent);
         let n = if landing.corner.is_some() { facing_centre(own.to, n) } else { n };
@@ -506,6 +538,9 @@ impl NodesInPlace<'_> {
         recall: Recall,
         points: &mut Vec<PatchPoint>,
     ) -> Option<()> {
+        if !self.contact.parts.surface.plane {
+            return self.edge_point((patch, landing), recall, points);
+        }
         let tip = self.tip(patch, landing)?;
         let (xi, n) = ([tip.foot.xi, 0.0], tip.n);
         let touched = recall(self, patch, xi);
@@ -536,6 +571,9 @@ impl NodesInPlace<'_> {
         columns: &[PointColumn],
         rates: &mut Vec<PointRates>,
     ) {
+        if !self.contact.parts.surface.plane {
+            return self.edge_rates((patch, landing), points, columns, rates);
+        }
         let (Some(tip), [point]) = (self.tip(patch, landing), points) else { return };
         let TipInPlace { tool, landing, ref foot, n, .. } = tip;
         let FootInPlace { ref at, centre, to, .. } = *foot;
@@ -581,7 +619,7 @@ impl TipInPlace<'_> {
 }
 
 /// Displacement along an unknown of the place of the surface over which a tip lay at the accepted state.
-fn left_behind(contact: &FieldContact, column: &PointColumn, touched: &Touched) -> Vec3 {
+pub(super) fn left_behind(contact: &FieldContact, column: &PointColumn, touched: &Touched) -> Vec3 {
     let (PointColumn::Node { axis, node, .. }, Some((face, shape))) = (column, &touched.face) else {
         return Vec3::zero();
     };

@@ -117,7 +117,7 @@ impl RigidTool {
         }
     }
     /// Has what is small lie within a face. In the plane roundings of radii up to `edge` part the tool as edges do, and those up to
-    /// `rounding` and edges are tips; in space pieces may lie within a face of `size`.
+    /// `rounding` and edges are tips; in space pieces may lie within a face of `size`, and edges have tips a half of `edge` apart.
     pub fn sharpen(&mut self, [edge, rounding]: [f64; 2], size: f64) {
         match &mut self.shape {
             RigidShape::Plane(tool, pieces) => {
@@ -126,6 +126,7 @@ impl RigidTool {
                 self.identity = identity();
             }
             RigidShape::Space(tool, pieces) => {
+                self.tips = tool.tips(0.5 * edge);
                 self.middles = (0..pieces.count()).map(|piece| tool.middle(pieces, piece, size)).collect();
             }
         }

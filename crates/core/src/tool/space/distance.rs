@@ -12,7 +12,7 @@ use crate::tool::distance::CREASE;
 use crate::tool::{BoxTree, NearestPoint};
 
 /// Points of two facets are the same within this part of the tool's size.
-const TOGETHER: f64 = 1e-7;
+pub(super) const TOGETHER: f64 = 1e-7;
 /// The facet behind an inward crease looks back at least by this sine.
 const INWARD: f64 = 0.1;
 /// Flanks of an edge look away from each other by less than this cosine.
@@ -89,7 +89,7 @@ impl SpaceTool {
     }
 
     /// Facets whose boxes come within `reach` of a point, ascending.
-    fn around(&self, x: Vec3, reach: f64) -> Vec<usize> {
+    pub(super) fn around(&self, x: Vec3, reach: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.tree().near(&BoundingBox { min: x, max: x }.widened(reach), &mut |facet| found.push(facet));
         found.sort_unstable();
@@ -167,8 +167,8 @@ impl SpaceTool {
         NearestPoint { gap, normal, point: x - normal * gap, bends: flat, beyond }
     }
 
-    /// Within an outward edge of the material another piece may be nearer than one with this gap and normal: then the way from the
-    /// bisector.
+    /// Within an outward edge of the material, and beside it behind a piece with this gap and normal, another may be nearer: then the way from
+    /// the bisector.
     fn nearer(&self, (pieces, piece): (&SmoothPieces, usize), x: Vec3, (gap, normal): (f64, Vec3)) -> Option<Vec3> {
         if gap >= 0.0 {
             return None;
@@ -178,7 +178,7 @@ impl SpaceTool {
             others.map(|facet| self.facets()[facet].nearest(x)).filter(|other| other.border == FacetBorder::Inside);
         let gaps = seen.map(|other| (other.normal.dot(x - other.point), other.normal));
         // The far side of a plate is no flank of an edge.
-        let flank = gaps.filter(|(other, n)| *other < 0.0 && *other > gap && n.dot(normal) > BACK);
+        let flank = gaps.filter(|(other, n)| *other > gap && *other < -gap && n.dot(normal) > BACK);
         let (other, n) = flank.max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some((n - normal) * ((other - gap) / (n - normal).dot(n - normal)))
     }

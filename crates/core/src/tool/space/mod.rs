@@ -5,6 +5,7 @@
 
 mod check;
 mod distance;
+mod edges;
 mod nearest;
 mod path;
 mod polygons;

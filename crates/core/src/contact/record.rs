@@ -58,8 +58,10 @@ pub mod entry {
     pub const AT_REST: usize = 24;
     /// How much nearer the target lies than in the mean, so far as that is added to the penetration.
     pub const NEARER: usize = 25;
+    /// Of a node of the field: pressure times irreversible slip over the part of its area that saw the target, with what tips rubbed there.
+    pub const WORN: usize = 26;
     /// Number of these values.
-    pub const COUNT: usize = 26;
+    pub const COUNT: usize = 27;
 }
 
 /// What is said of an overlap.
@@ -82,6 +84,7 @@ pub fn write(response: &Linearised, (slip, wear): ([f64; 2], f64), old: &[f64], 
     new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
     let rubbed = response.pressure().max(0.0) * response.slipped;
     new[entry::RUBBED] = old[entry::RUBBED] + rubbed;
+    new[entry::WORN] = old[entry::WORN];
     new[entry::CLOSURE] -= wear * rubbed;
     new[entry::STATUS] = f64::from(response.status as u8);
     new[entry::VIOLATION] = response.violation;
@@ -103,8 +106,8 @@ pub fn past(old: &[f64], [penalty, tangential_penalty]: [f64; 2], dt: f64) -> Pa
 
 /// An open point keeps what has been, and of the law's own state what the law says.
 pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
-    use entry::{DISSIPATED, RUBBED, SLIP, SLIP2, SLIPPED};
-    for kept in [SLIP, SLIP2, SLIPPED, DISSIPATED, RUBBED].into_iter().chain(OVERLAP) {
+    use entry::{DISSIPATED, RUBBED, SLIP, SLIP2, SLIPPED, WORN};
+    for kept in [SLIP, SLIP2, SLIPPED, DISSIPATED, RUBBED, WORN].into_iter().chain(OVERLAP) {
         new[kept] = old[kept];
     }
     law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
@@ -179,8 +182,11 @@ pub struct ContactRecord {
     pub last_dissipated: f64,
     /// What is added to the penetration before the law sees it: less than nothing for overlap that is yet to be removed.
     pub closure: f64,
-    /// Pressure times irreversible slip, summed since the start: the depth of wear over Archard's coefficient.
+    /// Pressure times irreversible slip, summed since the start.
     pub rubbed: f64,
+    /// The same over the area of a node, whatever part of it saw the target, with what tips rubbed there: the depth of wear over Archard's
+    /// coefficient. Of a tip none, which wears the nodes beneath.
+    pub worn: f64,
     /// Relative violation of the yield surface.
     pub violation: f64,
     /// The law's own variables; those that it does not have are zero.
@@ -207,6 +213,7 @@ impl ContactRecord {
             last_dissipated: values[entry::LAST_DISSIPATED],
             closure: values[entry::CLOSURE],
             rubbed: values[entry::RUBBED],
+            worn: values[entry::RUBBED],
             violation: values[entry::VIOLATION],
             vars: variables(values),
             ..Self::default()

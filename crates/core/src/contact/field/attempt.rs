@@ -224,7 +224,10 @@ impl FieldAttempt<'_> {
     /// What is added to the penetration of a node before the law sees it.
     fn closure(&self, slot: usize) -> f64 {
         let options = &self.contact.parts.options;
-        let recession = options.overlap.recession(self.law.recession(), self.history.slot(slot), self.at);
+        let wear = self.law.recession();
+        let own = if self.contact.node_of(slot).is_some() { wear } else { 0.0 };
+        let recession = options.overlap.recession(own, self.history.slot(slot), self.at)
+            - if own < wear { wear * self.worn_beneath(slot) } else { 0.0 };
         self.shift(slot)[0] + self.nearer[slot].most + recession
     }
 
@@ -332,6 +335,9 @@ impl FieldAttempt<'_> {
         let entered = Past { penetration: past.penetration.max(touch), ..past };
         let response = law.respond([penetration, slip[0], slip[1]], &entered, &mut new[entry::COUNT..])?;
         write(&response, (slip, law.recession()), old, new);
+        if let Some(node) = contact.node_of(slot) {
+            new[entry::WORN] += (new[entry::RUBBED] - old[entry::RUBBED]) * (sums.area / contact.areas[node]).min(1.0);
+        }
         if local.wants_tangent {
             self.sum(stencil, true, sums);
         }
@@ -583,9 +589,19 @@ impl Attempt for FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
-        if self.yield_tips(u) {
-            return Ok(true);
+        let goes_on = self.yield_tips(u) || self.improve(new, taken)?;
+        if !goes_on {
+            self.wear_beneath_tips(new);
         }
+        Ok(goes_on)
+    }
+}
+
+/// Part of what a tip had in the area of a face below which a converged increment goes on with what it has now.
+const CHANGED: f64 = 0.75;
+
+impl FieldAttempt<'_> {
+    fn improve(&mut self, new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
         let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(self.stiffen(new, taken)) };
         let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());
         for (slot, shift) in better.iter_mut().enumerate() {
@@ -623,12 +639,45 @@ impl Attempt for FieldAttempt<'_> {
         (self.shifts, self.augmented) = (better, self.augmented + 1);
         Ok(true)
     }
-}
 
-/// Part of what a tip had in the area of a face below which a converged increment goes on with what it has now.
-const CHANGED: f64 = 0.75;
+    /// Nodes beneath a place of a face, with the functions of its corners there.
+    fn beneath(&self, f: usize, xi: [f64; 2]) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let (surface, face) = (&self.contact.parts.surface, &self.contact.parts.surface.faces[f]);
+        let functions = face.corner_functions(face.nearest(xi));
+        (0..face.corners()).map(move |corner| (surface.field[f][corner], functions.n[corner]))
+    }
 
-impl FieldAttempt<'_> {
+    /// What has been rubbed of the surface beneath a foot of a tip at the accepted state.
+    fn worn_beneath(&self, slot: usize) -> f64 {
+        let foot = self.tips_before.get(slot - self.contact.nodal_slots()).copied().flatten();
+        let Some((face, landing)) = foot.and_then(|foot| Some((foot.patch.face, foot.patch.tip?))) else { return 0.0 };
+        let rubbed = |node: usize| {
+            let pieces = (0..self.contact.pieces).map(|piece| self.history.slot(self.contact.slot(node, piece)));
+            pieces.map(|values| values[entry::RUBBED]).fold(0.0, f64::max)
+        };
+        self.beneath(face, landing.xi).map(|(node, n)| n * rubbed(node)).sum()
+    }
+
+    /// What tips rubbed in a converged increment wears the nodes beneath them: the volume is that of the tip (Archard), its place the one
+    /// to which the tip has come.
+    fn wear_beneath_tips(&self, new: &mut History) {
+        let found = self.found();
+        for slot in self.contact.nodal_slots()..self.contact.slots() {
+            let rubbed = new.slot(slot)[entry::RUBBED] - self.history.slot(slot)[entry::RUBBED];
+            let Some(&(number, _)) = found.supports[slot].patches.first().filter(|_| rubbed > 0.0) else { continue };
+            let (patch, area) = (&found.patches[number].patch, new.slot(slot)[entry::XI]);
+            let Some(landing) = patch.tip else { continue };
+            for (node, n) in self.beneath(patch.face, landing.xi) {
+                let depth = rubbed * area * n / self.contact.areas[node];
+                for piece in 0..self.contact.pieces {
+                    let values = new.slot_mut(self.contact.slot(node, piece));
+                    values[entry::RUBBED] += depth;
+                    values[entry::WORN] += if piece == 0 { depth } else { 0.0 };
+                }
+            }
+        }
+    }
+
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
     /// did.
     fn yield_tips(&mut self, u: &[f64]) -> bool {

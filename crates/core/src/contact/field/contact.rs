@@ -67,6 +67,8 @@ pub struct FieldContact {
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
     sizes: Vec<f64>,
+    /// Undeformed areas of the nodes.
+    pub(super) areas: Vec<f64>,
 }
 
 impl Deref for FieldContact {
@@ -85,6 +87,10 @@ impl FieldContact {
         let size =
             |node: &FieldNode| node.support.iter().map(|&(f, _)| surface.size(f, mesh)).fold(f64::INFINITY, f64::min);
         let sizes = surface.nodes.iter().map(size).collect();
+        let area = |&(f, corner): &(usize, usize)| {
+            surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
+        };
+        let areas = surface.nodes.iter().map(|node| node.support.iter().map(area).sum()).collect();
         let pieces = match target {
             FieldTarget::Tool(rigid) => {
                 let [shortest, longest] = surface.sizes(mesh);
@@ -93,7 +99,7 @@ impl FieldContact {
             }
             FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
         };
-        Self { sides, roles, pieces, sizes }
+        Self { sides, roles, pieces, sizes, areas }
     }
 
     /// The largest penetration of a closed node in an accepted state.

@@ -152,6 +152,7 @@ impl FieldContact {
             },
             segment: (values[entry::SEGMENT] >= 0.0).then_some(slot % self.pieces),
             edge,
+            worn: values[entry::WORN],
             ..ContactRecord::of(values, self.parts.surface.plane)
         }
     }
@@ -179,13 +180,9 @@ impl FieldContact {
 
     /// The part of its faces on which a node lies over a piece of a tool in space, slot by slot; all of it for a tip.
     pub(super) fn shares(&self, history: &History) -> Option<Vec<f64>> {
-        let (surface, mesh) = (self.surface(), self.mesh());
-        self.parts.target.as_tool().filter(|_| !surface.plane)?;
-        let area = |&(f, corner): &(usize, usize)| {
-            surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
-        };
-        let whole: Vec<f64> = surface.nodes.iter().map(|node| node.support.iter().map(area).sum()).collect();
-        let share = |slot: usize| self.node_of(slot).map_or(1.0, |node| history.slot(slot)[entry::XI] / whole[node]);
+        self.parts.target.as_tool().filter(|_| !self.parts.surface.plane)?;
+        let share =
+            |slot: usize| self.node_of(slot).map_or(1.0, |node| history.slot(slot)[entry::XI] / self.areas[node]);
         Some((0..self.slots()).map(share).collect())
     }
 

@@ -18,6 +18,8 @@ struct Seen<'a> {
     reference: Vec<Vec3>,
     records: Vec<ContactRecord>,
     history: &'a History,
+    /// What has been dissipated in it since the start.
+    dissipated: f64,
 }
 
 impl Seen<'_> {
@@ -46,7 +48,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         let history = source.history(*term)?;
         let reference = contact.records(&zero, history).iter().map(|record| record.position).collect();
         let records = contact.records(&source.state.u, history);
-        all.push(Seen { contact: *contact, name, reference, records, history });
+        let dissipated = source.state.energies.get(*term).map_or(0.0, |energies| energies.dissipated);
+        all.push(Seen { contact: *contact, name, reference, records, history, dissipated });
     }
     if !all.is_empty() {
         report_points(&all, frame)?;
@@ -185,7 +188,7 @@ fn wear_of(all: &[Seen]) -> Option<Vec<f64>> {
     all.iter().find_map(coefficient)?;
     let depth = |seen| {
         let coefficient = coefficient(seen).unwrap_or(f64::NAN);
-        seen.records.iter().map(move |record| coefficient * record.rubbed)
+        seen.records.iter().map(move |record| coefficient * record.worn)
     };
     Some(all.iter().flat_map(depth).collect())
 }
@@ -228,8 +231,6 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.center() - pole).cross(r.force()))),
         ("center", Unit::Length, Width::Vector, center),
     ];
-    // With two passes each side counts half of the energy of the interface.
-    let share = seen.contact.share();
     let least = closed().map(|r| r.last_dissipated * r.area).reduce(f64::min).unwrap_or(0.0);
     let refused = seen.contact.false_contacts(&source.state.u) as f64;
     let scalars = [
@@ -240,7 +241,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("max_penetration_relative", Unit::One, most(&|r| r.penetration / edge_length(source, seen.contact, r.edge))),
         ("stick", Unit::One, count(PointStatus::Stick)),
         ("slip", Unit::One, count(PointStatus::Slip)),
-        ("dissipation", Unit::Energy, share * seen.records.iter().map(|r| r.dissipated * r.area).sum::<f64>()),
+        ("dissipation", Unit::Energy, seen.dissipated),
         ("least_dissipation", Unit::Energy, least),
         ("coulomb_violation", Unit::One, most(&|r| r.violation)),
         ("false_contacts", Unit::One, refused),

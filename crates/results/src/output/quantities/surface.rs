@@ -13,7 +13,7 @@ use asperity_core::mesh::cells::MAX_NODES;
 use asperity_core::tensor::Vec3;
 
 /// What is summed: pressure, the shear stress vector, gap, slip, depth of wear.
-const SUMS: usize = 7;
+const SUMS: usize = 6;
 
 /// The weighed sum of what contact points say; gaps are known where a target is seen.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,6 +22,8 @@ struct Sum {
     values: [f64; SUMS],
     /// Weight of the gaps alone.
     seen: f64,
+    /// Depths of wear with their weight: at a node the sum over the pieces of what it touched.
+    worn: [f64; 2],
     status: u8,
     touched: bool,
 }
@@ -43,14 +45,20 @@ struct Mean {
 }
 
 impl Sum {
-    fn add(&mut self, record: &ContactRecord, wear: f64, weight: f64) {
+    /// Adds a record, of a point with the area that it stands for.
+    fn add(&mut self, record: &ContactRecord, wear: f64, area: Option<f64>) {
+        let weight = area.unwrap_or(record.area);
         let shear = record.along * record.shear;
-        let values = [record.pressure, shear[0], shear[1], shear[2], 0.0, record.slip, wear * record.rubbed];
+        let values = [record.pressure, shear[0], shear[1], shear[2], 0.0, record.slip];
         self.values.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
         if record.penetration.is_finite() {
             self.values[4] -= weight * record.penetration;
             self.seen += weight;
         }
+        self.worn = match area {
+            Some(area) => [self.worn[0] + area * wear * record.worn, self.worn[1] + area],
+            None => [self.worn[0] + wear * record.worn, 1.0],
+        };
         self.weight += weight;
         self.touched = true;
         if record.status != PointStatus::Open {
@@ -61,7 +69,8 @@ impl Sum {
         let over = |i: usize| if self.weight > 0.0 { self.values[i] / self.weight } else { 0.0 };
         let gap = if self.seen > 0.0 { self.values[4] / self.seen } else { f64::NAN };
         let shear = Vec3::new(over(1), over(2), over(3));
-        let (pressure, slip, wear, status) = (over(0), over(5), over(6), self.status);
+        let wear = if self.worn[1] > 0.0 { self.worn[0] / self.worn[1] } else { 0.0 };
+        let (pressure, slip, status) = (over(0), over(5), self.status);
         self.touched.then_some(Mean { pressure, shear, gap, slip, wear, status })
     }
 }
@@ -74,11 +83,11 @@ fn of_contact(mesh: &Mesh, contact: Touching, records: &[ContactRecord], nodes: 
         match contact.stand(slot) {
             Stand::Face(face, corners) => {
                 if let Some(sum) = faces.get_mut(face) {
-                    sum.add(record, wear, record.area);
+                    sum.add(record, wear, Some(record.area));
                 }
-                corners.iter().for_each(|&(node, n)| own[node].add(record, wear, n * record.area));
+                corners.iter().for_each(|&(node, n)| own[node].add(record, wear, Some(n * record.area)));
             }
-            Stand::Node(node) => own[node].add(record, wear, record.area),
+            Stand::Node(node) => own[node].add(record, wear, None),
             Stand::Apart => {}
         }
     }
@@ -109,6 +118,7 @@ impl Sum {
         if other.touched {
             self.values.iter_mut().zip(other.values).for_each(|(sum, value)| *sum += part * value);
             (self.weight, self.seen) = (self.weight + part * other.weight, self.seen + part * other.seen);
+            self.worn = [0, 1].map(|i| self.worn[i] + part * other.worn[i]);
             (self.status, self.touched) = (self.status.max(other.status), true);
         }
     }

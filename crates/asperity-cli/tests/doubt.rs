@@ -594,6 +594,69 @@ displacement."a.right" = { x = 0.0, y = 0.3 }
     assert_eq!(run.code(), 0, "{}", run.notes());
 }
 
+/// Friction that grows with the slip of a point, under a roller of .4 over cells of .5 that slides by many times the width of its contact: Fx/N .376
+/// for .12 with cells of .03.
+#[test]
+fn a_law_with_a_memory_under_a_narrow_tool_is_told() {
+    let deck = |law: &str| {
+        format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.b.rectangle = {{ from = [0.0, 0.0], to = [10.0, 2.0], cells = [20, 4], cell = "quad4" }}
+material.s.elastic = {{ young = 2000.0, poisson = 0.35 }}
+body.b.material = "s"
+tool.p.profile = [{{ arc = [[2.0, 2.8], [1.6, 2.4], [2.0, 2.0]] }}, {{ arc = [[2.0, 2.0], [2.4, 2.4], [2.0, 2.8]] }}]
+contact.k = {{ surface = "b.top", target = "p", {law} }}
+output.pictures = false
+[[step]]
+displacement."b.bottom" = {{ x = 0.0, y = 0.0 }}
+load.p.y = -10.0
+[[step]]
+motion.p.x = 3.0
+load.p.y = -10.0
+"#
+        )
+    };
+    for (law, told) in [
+        ("law.slip_dependent = { initial = 0.1, final = 0.4, slip = 0.5 }", true),
+        ("law.coulomb.friction = 0.2", false),
+    ] {
+        let notes = Run::of(&deck(law), &[]).notes();
+        assert_eq!(notes.contains("its law remembers"), told, "{notes}");
+    }
+}
+
+/// Rubber that expands freely, or is pressed from all sides, has a stress of shape and forces that are rounding: no jumps of the pressure, and none of
+/// the run.
+#[test]
+fn rubber_without_shape_is_not_doubted() {
+    for cell in ["quad4", "quad8", "tri3", "tri6"] {
+        for (expands, load) in [
+            (", expansion = 1e-3", "temperature.c.value = 100.0"),
+            ("", "pressure.\"c.top\".value = 5.0\npressure.\"c.right\".value = 5.0"),
+        ] {
+            let deck = format!(
+                r#"
+version = 1
+space = "axisymmetric"
+mesh.part.c.rectangle = {{ from = [0.0, 0.0], to = [1.0, 1.0], cells = [6, 6], cell = "{cell}" }}
+material.n.neo_hookean = {{ shear = 1.0, bulk = 1000.0 }}
+body.c = {{ material = "n"{expands} }}
+output.pictures = false
+[[step]]
+displacement."c.bottom" = {{ y = 0.0 }}
+displacement."c.left" = {{ x = 0.0 }}
+{load}
+"#
+            );
+            let run = Run::of(&deck, &[]);
+            let notes = run.notes();
+            assert!(run.code() == 0 && !notes.contains("jump"), "{cell} {load}: {notes}");
+        }
+    }
+}
+
 /// A cantilever of which the outer parts yield: with one brick through it that flows nowhere, since its points lie inside, and the end sinks by
 /// .853 (1.130 with four by four `hex20` across). With half of the load nothing yields, and four bricks see it.
 #[test]

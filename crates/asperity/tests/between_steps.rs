@@ -108,3 +108,71 @@ fn a_contact_that_is_added_presses_little_by_little() {
     let (missing, external) = (columns["energy.missing"].last().unwrap(), columns["energy.external"][1]);
     assert!((missing / external).abs() < 0.02, "{missing} of {external}");
 }
+
+/// The same between two bodies, the upper of which a rigid group leads: what leads it is no reason to press at once.
+#[test]
+fn a_contact_of_a_led_body_is_added_little_by_little() {
+    let force = |led: &str, said: [&str; 3]| {
+        let [down, held, still] = said;
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.c.rectangle = {{ from = [0.0, 0.0], to = [6.0, 2.0], cells = [6, 2], cell = "quad4" }}
+mesh.part.b.rectangle = {{ from = [-1.0, -2.0], to = [7.0, 0.0], cells = [8, 2], cell = "quad4" }}
+material.soft.elastic = {{ young = 1000.0, poisson = 0.3 }}
+body.c.material = "soft"
+body.b.material = "soft"
+{led}
+contact.k = {{ surface = "c.bottom", target = "b.top", law.coulomb.friction = 0.1 }}
+[[step]]
+displacement."b.bottom" = {{ x = 0.0, y = 0.0 }}
+{down}
+[[step]]
+{held}
+remove = ["k"]
+[[step]]
+increments.count = 4
+{still}
+add = ["k"]
+"#
+        );
+        let model = model(&deck, &[]);
+        let columns = columns(&model, &run(&model));
+        let force = &columns["contact.k.force.y"];
+        force[force.len() - 4..].iter().map(|f| f / force[force.len() - 1]).collect::<Vec<f64>>()
+    };
+    let said = "displacement.\"c.top\" = { x = 0.0, y = -0.1 }";
+    let led = "motion.top = { x = 0.0, y = -0.1 }";
+    for (body, said) in [("", said), ("rigid.top.group = \"c.top\"", led)] {
+        near(&force(body, [said; 3]), &[0.25, 0.5, 0.75, 1.0], 0.02);
+    }
+}
+
+/// A bar on springs of which one is released, or made stiffer: what they have stored then goes to whoever does so, and no energy is missing.
+#[test]
+fn springs_that_change_take_their_energy_along() {
+    for second in ["release = [\"spring.c.right\"]", "spring.\"c.right\" = { x = 60.0 }"] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-stress"
+mesh.part.c.rectangle = {{ from = [0.0, 0.0], to = [10.0, 2.0], cells = [5, 2], cell = "quad8" }}
+material.e.elastic = {{ young = 1e5, poisson = 0.3 }}
+body.c.material = "e"
+[[step]]
+displacement."c.bottom" = {{ y = 0.0 }}
+spring."c.left" = {{ x = 10.0 }}
+spring."c.right" = {{ x = 20.0 }}
+traction."c.right" = {{ x = 5.0 }}
+[[step]]
+{second}
+"#
+        );
+        let model = model(&deck, &[]);
+        let keep = run(&model);
+        let columns = columns(&model, &keep);
+        let (missing, stored) = (columns["energy.missing"].last().unwrap(), columns["energy.spring"].last().unwrap());
+        assert!(missing.abs() < 1e-3 * stored, "{second}: {missing} {stored}");
+    }
+}

@@ -25,12 +25,18 @@ impl Term for Springs {
     fn name(&self) -> &str {
         &self.name
     }
+    /// At each node the stiffness that the springs have.
     fn initial(&self) -> History {
-        History::new(self.nodes.iter().map(|_| 0))
+        History::new(self.nodes.iter().map(|_| self.stiffness.len()))
     }
-    fn attempt<'a>(&'a self, _: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        history: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let stiffness = self.stiffness.iter().map(|k| k.value(at.step, at.step_time)).collect();
-        Ok(Box::new(OpenSprings { springs: self, stiffness }))
+        Ok(Box::new(OpenSprings { springs: self, stiffness, accepted, history }))
     }
     fn name_of(&self, stencil: usize) -> String {
         format!("node {} on springs '{}'", self.nodes[stencil], self.name)
@@ -41,19 +47,29 @@ impl Term for Springs {
 struct OpenSprings<'a> {
     springs: &'a Springs,
     stiffness: Vec<f64>,
+    accepted: &'a State,
+    history: &'a History,
 }
 
 impl Attempt for OpenSprings<'_> {
     fn scratch(&self, _: usize) -> Vec<f64> {
-        Vec::new()
+        vec![0.0; self.stiffness.len()]
     }
     fn stencils(&self, _: &[f64], out: &mut Stencils) -> Result<(), Failure> {
         let dofs = &self.springs.dofs;
         self.springs.nodes.iter().for_each(|&node| out.push(dofs.node(node)..dofs.node(node) + dofs.per_node(), 0));
         Ok(())
     }
-    fn evaluate(&self, _: usize, _: &Stencil, _: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
+    fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let n = local.u.len();
+        let before = &self.accepted.u[self.springs.dofs.displacements(self.springs.nodes[index])];
+        for ((&k, &had), (u, before)) in
+            self.stiffness.iter().zip(self.history.slot(index)).zip(local.u.iter().zip(before))
+        {
+            // Who makes a stretched spring stiffer or softer does work on it, which that of its forces at both ends of the increment has not.
+            local.supplied += 0.5 * (k - had) * before * u;
+        }
+        new.copy_from_slice(&self.stiffness);
         for (i, (&k, &u)) in self.stiffness.iter().zip(&local.u).enumerate() {
             local.force[i] = k * u;
             local.stored += 0.5 * k * u * u;

@@ -485,8 +485,11 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Notes an accepted increment that set energy free, more than rounding.
+    /// Notes an accepted increment that set energy free, more than rounding, which is all there is where no force is in play.
     fn look_for_snap(&mut self, record: &AttemptRecord, forces: &[f64], before: [f64; 2]) {
+        if self.state.in_play[0] == 0.0 {
+            return;
+        }
         let now = exchanged(&self.state);
         let energy = set_free(&self.state, forces, [0, 1].map(|i| now[i] - before[i]));
         let rounding = NOISE * (now[0].abs() + self.state.in_play[0] * self.problem.cell_size);

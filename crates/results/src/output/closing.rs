@@ -23,6 +23,7 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     }
     summary.notes.extend(rough(model, &run.state));
     summary.notes.extend(few_facets(model, &run.state));
+    summary.notes.extend(memory_of_tips(model, &run.state));
     let bodies = Parts::of(model).bodies;
     summary.notes.extend(bodies.iter().flat_map(|(term, body)| locking(body, &run.state, *term)));
     summary.notes.extend(imbalance(certificate, limits));
@@ -238,6 +239,20 @@ fn rough(model: &Model, state: &State) -> Vec<String> {
                 name,
                 100.0 * rough,
                 (model.problem.node_name)(node)
+            )
+        })
+    };
+    Parts::of(model).contacts.iter().filter_map(told).collect()
+}
+
+/// Which contacts have a law with a memory, most of which tips of a tool bear.
+fn memory_of_tips(model: &Model, state: &State) -> Vec<String> {
+    let told = |(term, name, contact): &(usize, String, Touching)| {
+        let remembers = !contact.variables().is_empty() && contact.borne_by_tips(&state.histories[*term]) > 0.5;
+        remembers.then(|| {
+            format!(
+                "contact '{name}': its law remembers what a point of the surface has slipped, but it is narrower than a face, so that a vertex or \
+                 rounding of the tool bears it, which takes that along over the surface; faces smaller than the contact is wide do not"
             )
         })
     };

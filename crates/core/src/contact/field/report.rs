@@ -186,6 +186,20 @@ impl FieldContact {
         Some((0..self.slots()).map(share).collect())
     }
 
+    /// The part of the force that tips of the tool bear; none where nothing does.
+    pub fn borne_by_tips(&self, history: &History) -> f64 {
+        let closed = (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0);
+        let force = |slot: usize| {
+            let values = history.slot(slot);
+            values[entry::PRESSURE].max(0.0) * values[entry::HALF] * values[entry::XI]
+        };
+        let [tips, all] = closed.fold([0.0, f64::MIN_POSITIVE], |[tips, all], slot| {
+            let force = force(slot);
+            [tips + if self.node_of(slot).is_none() { force } else { 0.0 }, all + force]
+        });
+        tips / all
+    }
+
     /// What is known of a node, for each piece of the target.
     fn slots_of<'a>(&'a self, node: usize, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
         (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)))

@@ -5,7 +5,7 @@ use super::{Arm, Following};
 use crate::Failure;
 use crate::system::{
     Answer, Attempt, Branch, Coordinates, Couplings, History, Instant, Kinks, Local, Role, State, Stencil, Stencils,
-    Term,
+    Term, Unevenness,
 };
 use crate::tensor::Vec3;
 use std::sync::{Arc, PoisonError, RwLock};
@@ -32,6 +32,12 @@ impl Term for Led {
     }
     fn initial(&self) -> History {
         self.term.initial()
+    }
+    fn returned(&self, accepted: &State, at: Instant, until: f64) -> Result<History, Failure> {
+        self.term.returned(accepted, at, until)
+    }
+    fn unevenness(&self, old: &History, new: &History, dt: f64) -> Unevenness {
+        self.term.unevenness(old, new, dt)
     }
     fn at_start(&self, forces: &mut [f64]) -> Result<f64, Failure> {
         let mut own = vec![0.0; forces.len()];
@@ -169,6 +175,12 @@ impl Attempt for LedAttempt<'_> {
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
         let placed = self.placed(u);
         self.attempt.augment(&placed, new, taken)
+    }
+    fn hold(&self, hold: bool) {
+        self.attempt.hold(hold);
+    }
+    fn holds(&self) -> bool {
+        self.attempt.holds()
     }
     fn before(&self, stencil: usize) -> Coordinates {
         self.attempt.before(stencil)

@@ -129,6 +129,13 @@ impl Touching<'_> {
             Self::Field(contact) => contact.roughness(history),
         }
     }
+    /// The part of the force that a field's tips of a tool bear.
+    pub fn borne_by_tips(&self, history: &History) -> f64 {
+        match self {
+            Self::Points(_) => 0.0,
+            Self::Field(contact) => contact.borne_by_tips(history),
+        }
+    }
     /// How far the facets of a curved surface lie inside it, where one or two of them bear.
     pub fn few_facets(&self, history: &History) -> Option<f64> {
         match self {

@@ -28,7 +28,7 @@ fn each_stencil(attempt: &dyn Attempt, u: &[f64], then: &mut dyn FnMut(&[usize],
         let dofs = stencils.dofs(stencil);
         local.u = dofs.iter().map(|&dof| u[dof]).collect();
         local.reset(stencil.len);
-        attempt.evaluate(index, stencil, &mut [], &mut local).unwrap();
+        attempt.evaluate(index, stencil, &mut attempt.scratch(index), &mut local).unwrap();
         then(dofs, &local);
     }
 }

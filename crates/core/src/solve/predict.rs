@@ -23,7 +23,11 @@ impl Newton<'_> {
         let state = self.state;
         if state.last_dt > 0.0 {
             self.hold(true);
-            match self.begin(state.ahead(self.at.dt)) {
+            let (mut ahead, ratio) = (state.ahead(self.at.dt), self.at.dt / state.last_dt);
+            for whole in self.problem.wholes.iter().filter(|_| !state.bends) {
+                whole.turn_on(&self.problem.dofs, [&state.u, &state.last_change], ratio, &mut ahead);
+            }
+            match self.begin(ahead) {
                 Err(failure) if failure.kind != FailureKind::Apart => self.hold(false),
                 begun => return Ok(begun?),
             }

@@ -2,7 +2,8 @@
 
 use super::Dofs;
 use crate::mesh::Space;
-use crate::tensor::Vec3;
+use crate::tensor::{Tensor2, Vec3};
+use crate::tool::Pose;
 
 /// Nodes that hang together by cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +12,11 @@ pub struct Whole {
     nodes: Vec<(usize, Vec3)>,
     space: Space,
 }
+
+/// Angle by which an increment must turn a whole for the next to turn on; and the step with which the search for it ends, within so many.
+const TURNS: f64 = 0.05;
+const SETTLED: f64 = 1e-12;
+const TURNING: usize = 30;
 
 impl Whole {
     /// The wholes of cells, each given by its nodes.
@@ -56,6 +62,50 @@ impl Whole {
         let shift = shifts.into_iter().map(|a| self.motion(dofs, |_| axis(a)));
         let turn = turns.into_iter().map(|a| self.motion(dofs, |k| axis(a).cross(arms[k]) * size.recip()));
         shift.chain(turn).collect()
+    }
+
+    /// Where a motion `change` that led to `u` leads where a part `ratio` of it is carried on: where it turned the whole by more than a little
+    /// that turns on, about the mean of its nodes, with what deformed it, in place of the straight motion in `ahead`, which would stretch it by
+    /// half the square of the angle.
+    pub fn turn_on(&self, dofs: &Dofs, [u, change]: [&[f64]; 2], ratio: f64, ahead: &mut [f64]) {
+        let (mean, now) = self.placed(dofs, |dof| u[dof]);
+        let (mean_before, before) = self.placed(dofs, |dof| u[dof] - change[dof]);
+        let Some(turn) = self.best_turn(&before, &now).filter(|turn| turn.norm() > TURNS) else { return };
+        let [whole, part] = [1.0, ratio].map(|part| Pose::<f64>::turned(turn * part));
+        let mean = mean + (mean - mean_before) * ratio;
+        for ((&(node, x), now), before) in self.nodes.iter().zip(now).zip(before) {
+            let deformed = now - whole.rotate(before);
+            let place = mean + part.rotate(now + deformed * ratio) - x;
+            (0..dofs.per_node()).for_each(|axis| ahead[dofs.node(node) + axis] = place[axis]);
+        }
+    }
+
+    /// The rotation that brings arms nearest to others by least squares (Gauss and Newton), as a vector; none that there is not.
+    fn best_turn(&self, from: &[Vec3], to: &[Vec3]) -> Option<Vec3> {
+        let mut turn = Vec3::zero();
+        for _ in 0..TURNING {
+            let pose = Pose::<f64>::turned(turn);
+            let (mut moment, mut inertia) = (Vec3::zero(), Tensor2::zero());
+            for (from, to) in from.iter().zip(to) {
+                let arm = pose.rotate(*from);
+                moment += arm.cross(*to);
+                let square = arm.dot(arm);
+                inertia = inertia + Tensor2::from_fn(|i, j| if i == j { square } else { 0.0 } - arm[i] * arm[j]);
+            }
+            let step = match self.space {
+                Space::Axisymmetric => return None,
+                Space::Solid => inertia.inverse() * moment,
+                Space::PlaneStrain | Space::PlaneStress => Vec3::axis(2) * (moment[2] / inertia[(2, 2)]),
+            };
+            turn += step;
+            if !step.is_finite() {
+                return None;
+            }
+            if step.norm() < SETTLED {
+                return Some(turn);
+            }
+        }
+        None
     }
 
     /// The motion of all unknowns that moves node number `k` of this whole by `of(k)`.

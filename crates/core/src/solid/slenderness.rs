@@ -1,7 +1,7 @@
 //! How long and how thick the cells of a body are, against its own thickness, how much they taper and how far they are curved: what
 //! cells get wrong in bending.
 
-use super::{Body, Choice, Formulation, Integration, incompatible};
+use super::{Body, Formulation, Integration, incompatible};
 use crate::mesh::cells::Cell;
 use crate::mesh::{CREASE, CellView, Mesh, Side, median};
 use crate::tensor::{Tensor2, Vec3};
@@ -348,11 +348,8 @@ impl Body {
     /// modes make the strain of a cell linear, which in a tight fold it is not.
     pub fn too_far_bent(&self, u: &[f64]) -> Option<f64> {
         let (mut energy, mut excess) = (0.0, 0.0);
-        let modes = |kind: &Cell| {
-            let of = |choice: &&Choice| choice.kind == kind && choice.formulation == Formulation::Incompatible;
-            self.choices().iter().any(|choice| of(&choice))
-        };
-        for &cell in self.cells.iter().filter(|&&cell| modes(self.mesh.cell(cell).kind)) {
+        let has_modes = |&&cell: &&usize| self.shapes(self.mesh.cell(cell).kind).modes > 0;
+        for &cell in self.cells.iter().filter(has_modes) {
             let Rest { even, left, .. } = self.rest(cell, u);
             let bent = |[a, b]: [usize; 2]| {
                 let edge = even[b] - even[a];

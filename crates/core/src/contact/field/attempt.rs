@@ -224,10 +224,12 @@ impl FieldAttempt<'_> {
     /// What is added to the penetration of a node before the law sees it.
     fn closure(&self, slot: usize) -> f64 {
         let options = &self.contact.parts.options;
-        let wear = self.law.recession();
-        let own = if self.contact.node_of(slot).is_some() { wear } else { 0.0 };
-        let recession = options.overlap.recession(own, self.history.slot(slot), self.at)
-            - if own < wear { wear * self.worn_beneath(slot) } else { 0.0 };
+        // A tip stands back by what is worn of the surface beneath it, and takes none along.
+        let [own, beneath] = match self.contact.node_of(slot) {
+            Some(_) => [self.law.recession(), 0.0],
+            None => [0.0, self.law.recession() * self.worn_beneath(slot)],
+        };
+        let recession = options.overlap.recession(own, self.history.slot(slot), self.at) - beneath;
         self.shift(slot)[0] + self.nearer[slot].most + recession
     }
 
@@ -601,6 +603,7 @@ impl Attempt for FieldAttempt<'_> {
 const CHANGED: f64 = 0.75;
 
 impl FieldAttempt<'_> {
+    /// Augments, or changes the penalty, and says whether it did.
     fn improve(&mut self, new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
         let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(self.stiffen(new, taken)) };
         let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());

@@ -91,6 +91,12 @@ impl Linearised {
         Self { stress, slopes, status, slipped, closure, dissipated, violation }
     }
 
+    /// Adds irreversible slip under the shear stress that there is.
+    pub fn slide(&mut self, slip: f64) {
+        self.slipped += slip;
+        self.dissipated += self.stress[1].hypot(self.stress[2]) * slip;
+    }
+
     /// Pressure.
     pub fn pressure(&self) -> f64 {
         self.stress[0]

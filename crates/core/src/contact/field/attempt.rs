@@ -19,7 +19,7 @@ use crate::contact::energy::account;
 use crate::contact::increment::{in_contact, refuse_jump};
 use crate::contact::kink::answer;
 use crate::contact::record::{entry, leave, past, stresses, write};
-use crate::interface::{Interface, Past};
+use crate::interface::{Interface, Past, Status};
 use crate::system::{
     Answer, Attempt, Branch, Coordinates, Couplings, History, Instant, Kinks, Local, Stencil, Stencils, Term,
 };
@@ -77,6 +77,8 @@ pub struct FieldAttempt<'a> {
     pub linear: Vec<Mutex<Linear>>,
     /// Nodes that leave the stress to others of their faces, slot by slot.
     pub idle: Vec<bool>,
+    /// Whether any node bore a pressure at the accepted state: one that closes then takes over from others what slides all the while.
+    pub bore: bool,
     /// Gap from which on a node is too far away to close in the next iteration.
     pub far: f64,
     /// Length of the increment over that of the last; zero without one.
@@ -322,7 +324,8 @@ impl FieldAttempt<'_> {
         let seen = here + lift;
         if self.idle[slot] || seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
-            account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, [0.0; 2]), local);
+            let slid = if old[entry::STATUS] == f64::from(Status::Slip as u8) { slip } else { [0.0; 2] };
+            account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, slid), local);
             local.across = -across(old, -here);
             return Ok(0);
         }
@@ -333,9 +336,15 @@ impl FieldAttempt<'_> {
         new[entry::PENETRATION] -= contact.least;
         (new[entry::CLOSURE], new[entry::NEARER]) = (new[entry::CLOSURE] - flat, new[entry::NEARER] - flat);
         let part = in_contact(penetration - touch, past.penetration - touch);
-        let slip = slip.map(|slip| slip * part);
+        let (whole, slip) = (slip, slip.map(|slip| slip * part));
         let entered = Past { penetration: past.penetration.max(touch), ..past };
-        let response = law.respond([penetration, slip[0], slip[1]], &entered, &mut new[entry::COUNT..])?;
+        let mut response = law.respond([penetration, slip[0], slip[1]], &entered, &mut new[entry::COUNT..])?;
+        let slip = if self.bore && response.status == Status::Slip {
+            response.slide(whole[0].hypot(whole[1]) * (1.0 - part));
+            whole
+        } else {
+            slip
+        };
         write(&response, (slip, law.recession()), old, new);
         if let Some(node) = contact.node_of(slot) {
             new[entry::WORN] += (new[entry::RUBBED] - old[entry::RUBBED]) * (sums.area / contact.areas[node]).min(1.0);

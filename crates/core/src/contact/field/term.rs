@@ -142,6 +142,7 @@ impl Term for FieldContact {
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
             idle: self.idle(history),
+            bore: (0..self.slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0),
             far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
             hold: AtomicBool::default(),

@@ -416,3 +416,28 @@ traction."column.left" = { x = 0.001 }
         assert!(middle > 4.0, "{count}: {middle}");
     }
 }
+
+/// Rubber under a pressure all round of 50 times its shear modulus is stable. The matrix of a first iteration turns with the stress before the
+/// increment, under the pressure after it, and had 10 negative eigenvalues.
+#[test]
+fn pressure_all_round_is_no_bifurcation() {
+    for (cell, largest) in [("quad4", 0.1), ("quad4", 0.05), ("quad8", 0.1)] {
+        let deck = format!(
+            r#"
+version = 1
+space = "axisymmetric"
+mesh.part.c.rectangle = {{ from = [0.0, 0.0], to = [1.0, 1.0], cells = [6, 6], cell = "{cell}" }}
+material.n.neo_hookean = {{ shear = 1.0, bulk = 1000.0 }}
+body.c.material = "n"
+[[step]]
+displacement."c.bottom".y = 0.0
+displacement."c.left".x = 0.0
+pressure."c.top".value = 50.0
+pressure."c.right".value = 50.0
+increments = {{ first = 0.05, largest = {largest} }}
+"#
+        );
+        let attempts = run(&model(&deck, &[])).attempts;
+        assert!(attempts.len() > 5 && attempts.iter().all(|record| record.turn.is_none()), "{cell} {largest}");
+    }
+}

@@ -487,6 +487,15 @@ impl<'a> Newton<'a> {
         if self.linearised { Ok(()) } else { self.evaluate(u, missing, self.tangent()) }
     }
 
+    /// All terms at `u` with the derivative of their forces there.
+    pub(super) fn derivative_at(mut self, u: &[f64]) -> Result<Evaluation, Failure> {
+        let trial = Trial::at(u, self.tangent());
+        self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
+        self.stop(u, true);
+        self.resist(u, true);
+        Ok(self.evaluation)
+    }
+
     pub(super) fn evaluate(&mut self, u: &[f64], missing: Option<&[f64]>, tangent: Tangent) -> Result<(), Failure> {
         self.linearised = tangent != Tangent::None;
         let (origin, from) = self.memory.mip.origin();

@@ -14,7 +14,9 @@ use super::rigid::free_motions;
 use super::schedule::Step;
 use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability, Turn, softens};
-use crate::system::{Caution, Energies, Evaluation, Interpenetration, State, Unevenness, Workspace};
+use crate::system::{
+    Caution, Energies, Evaluation, Interpenetration, Signs, Softest, State, Unevenness, Workspace,
+};
 use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
 
@@ -204,7 +206,7 @@ impl<'a> Run<'a> {
                         continue;
                     }
                     if converged.held.is_empty() {
-                        let before = may_return.then(|| (self.state.signs, self.state.softest.clone()));
+                        let before = (self.state.signs, self.state.softest.clone());
                         let look = Look {
                             problem: self.problem,
                             record: &record,
@@ -214,8 +216,11 @@ impl<'a> Run<'a> {
                             sprung: converged.reached.as_mut().and_then(|reached| reached.sprung.take()),
                         };
                         record.turn = self.stability.look(&mut self.state, look);
+                        if record.turn.is_some() && step.arc_length.is_none() {
+                            record.turn = self.look_again(&record, &converged.u, before.clone());
+                        }
                         let crosses = |turn: &Turn| turn.crosses(&self.state, (&converged.u, dt), self.problem.size);
-                        if let Some(before) = before.filter(|_| record.turn.as_ref().is_some_and(crosses)) {
+                        if may_return && record.turn.as_ref().is_some_and(crosses) {
                             (self.state.signs, self.state.softest) = before;
                             self.stability.forget_last();
                             (record.turn, record.failure) =
@@ -291,6 +296,34 @@ impl<'a> Run<'a> {
         let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
         let moved = converged.u[..nodes].iter().zip(&self.state.u).map(|(now, before)| now - before);
         newton::largest(moved) > ASTRAY * self.problem.size
+    }
+
+    /// Looks again for a turn from the signs and the softest mode that were known `before`, with the derivative of the forces at the converged
+    /// unknowns: the matrix of a first iteration turns with stresses of the accepted state, which do not balance the loads that act now.
+    fn look_again(
+        &mut self,
+        record: &AttemptRecord,
+        u: &[f64],
+        before: (Option<Signs>, Option<Softest>),
+    ) -> Option<Turn> {
+        let last = self.stability.forget_last();
+        (self.state.signs, self.state.softest) = before;
+        let newton = Newton::open(self.problem, &self.state, record.dt, &mut self.memory, &mut self.system);
+        let Ok(evaluation) = newton.and_then(|newton| newton.derivative_at(u)) else {
+            self.stability.turns.extend(last.clone());
+            return last;
+        };
+        let look = Look {
+            problem: self.problem,
+            record,
+            values: &evaluation.values,
+            memory: &self.memory,
+            system: &mut self.system,
+            sprung: None,
+        };
+        let turn = self.stability.look_at(&mut self.state, look);
+        self.memory.spare = Some(evaluation);
+        turn
     }
 
     /// Whether a contact bears in the accepted state: what it holds may let go, and snap to and fro.

@@ -118,14 +118,27 @@ impl Stability {
             false if fresh => self.count(state, &mut look),
             false => self.suspects(state, &mut look).then(|| self.factorise(state, &mut look)).flatten(),
         };
-        self.turns.extend(turn.clone().map(|turn| Turn { mode: Vec::new(), ..turn }));
-        self.spent += begun.elapsed();
+        self.keep(&turn, begun);
         turn
     }
 
-    /// Forgets the turn that was found last: its increment is not accepted.
-    pub(super) fn forget_last(&mut self) {
-        self.turns.pop();
+    /// The same with a matrix that has no factor yet.
+    pub(super) fn look_at(&mut self, state: &mut State, mut look: Look) -> Option<Turn> {
+        let begun = Instant::now();
+        let turn = self.factorise(state, &mut look);
+        self.keep(&turn, begun);
+        turn
+    }
+
+    /// Keeps a turn that was found, and the time that it took.
+    fn keep(&mut self, turn: &Option<Turn>, begun: Instant) {
+        self.turns.extend(turn.clone().map(|turn| Turn { mode: Vec::new(), ..turn }));
+        self.spent += begun.elapsed();
+    }
+
+    /// Forgets the turn that was found last: its increment is not accepted, or it is looked at again.
+    pub(super) fn forget_last(&mut self) -> Option<Turn> {
+        self.turns.pop()
     }
 
     /// Improves the softest mode by the old factor; whether its quotient has not the sign that the last pivots said.

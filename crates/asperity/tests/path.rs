@@ -441,3 +441,30 @@ increments = {{ first = 0.05, largest = {largest} }}
         assert!(attempts.len() > 5 && attempts.iter().all(|record| record.turn.is_none()), "{cell} {largest}");
     }
 }
+
+/// A strut that has buckled comes to lie on a plate: there the path turns by a corner, and goes on to where steps in time lead too.
+#[test]
+fn a_path_goes_round_the_corner_at_which_contact_closes() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.b.rectangle = { from = [0.0, 0.0], to = [20.0, 1.0], cells = [20, 2], cell = "quad8" }
+material.e.elastic = { young = 1000.0, poisson = 0.3 }
+body.b.material = "e"
+tool.t.profile = [{ line = [[30.0, -2.0], [-10.0, -2.0]] }]
+contact.k = { surface = "b.bottom", target = "t", law.coulomb.friction = 0.2 }
+[[step]]
+displacement."b.left" = { x = 0.0, y = 0.0 }
+force."b.bottom_right" = { x = -4.0, y = -0.1 }
+control = "time"
+"#;
+    let ends = ["time", "arc-length"].map(|control| {
+        let model = model(&deck.replace("\"time\"", &format!("{control:?}")), &[]);
+        let keep = run(&model);
+        assert!(keep.attempts.iter().map(|record| record.solutions()).sum::<usize>() < 250, "{control}");
+        let state = keep.states.last().unwrap();
+        let records = model.field_contacts[0].records(&state.u, &state.histories[model.first_contact()]);
+        records.iter().map(|record| record.pressure * record.area).sum::<f64>()
+    });
+    assert!((ends[0] / 1.1304 - 1.0).abs() < 0.01 && (ends[1] / ends[0] - 1.0).abs() < 0.01, "{ends:?}");
+}

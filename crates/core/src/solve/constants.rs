@@ -139,6 +139,8 @@ pub mod path {
     /// Part of the size of the model by which the first increment, one of the load, may move a node where it takes many iterations: it
     /// may else have gone past the limit points of a shallow arch.
     pub const ASTRAY: f64 = 0.01;
+    /// Part of an increment that served below which those that fail are taken to fail at a corner of the path.
+    pub const CORNER: f64 = 0.2;
 }
 
 /// The first guess.

@@ -7,7 +7,8 @@
 //! the factor of the stiffness alone, once for the unbalanced forces and once for the load; a spring that is in the matrix, and not in the
 //! equations, keeps it regular at limit points. The last increment carried on is
 //! the first guess: it goes the same way along the path. The first increment of a step is one of the load factor and is the
-//! measure of those that follow; the one that would pass the end of the step ends there.
+//! measure of those that follow; the one that would pass the end of the step ends there. Where contact closes or opens the path has a corner,
+//! beyond which a motion carried on leads nowhere: there it begins anew with an increment of the load factor.
 
 use super::constants::path::{AHEAD, LENGTH, LOAD, REACHED, SHORTEST};
 use super::newton::{Newton, SolveError};
@@ -113,8 +114,9 @@ impl<'a> Newton<'a> {
             u.iter_mut().zip(&state.last_change).for_each(|(u, change)| *u += part * change);
             factor += part * state.last_factor;
         }
-        let bound =
-            if carried { Bound::Length(state.arc * dt) } else { Bound::Factor(factor + dt / self.step.duration) };
+        let load = dt / self.step.duration;
+        let load = if state.last_factor < 0.0 { -load } else { load };
+        let bound = if carried { Bound::Length(state.arc * dt) } else { Bound::Factor(factor + load) };
         let room = self.memory.other.take().unwrap_or_else(|| Evaluation::new(&self.problem.terms, state));
         self.path = Some(Path { arc, bound, factor, led: self.led(), room, sprung: None });
         let aim = if let Bound::Factor(aim) = bound { aim } else { factor };

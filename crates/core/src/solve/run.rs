@@ -1,7 +1,7 @@
 //! Steps and increments: the loop around the attempts.
 
 use super::constants::increments::{ATTEMPTS, BACK, CUBIC, DRIVEN, FAR, JUMPED, LEAP, NEAR, NOISE, RELAX, RETURNS};
-use super::constants::path::ASTRAY;
+use super::constants::path::{ASTRAY, CORNER};
 use super::constants::regularisation::CLOSE;
 use super::constants::sizes::{AIM, EASY, PAST, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
@@ -14,9 +14,7 @@ use super::rigid::free_motions;
 use super::schedule::Step;
 use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability, Turn, softens};
-use crate::system::{
-    Caution, Energies, Evaluation, Interpenetration, Signs, Softest, State, Unevenness, Workspace,
-};
+use crate::system::{Caution, Energies, Evaluation, Interpenetration, Signs, Softest, State, Unevenness, Workspace};
 use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
 
@@ -275,6 +273,10 @@ impl<'a> Run<'a> {
                         relaxing = false;
                         continue;
                     }
+                    if self.begins_anew(dt / served) {
+                        wanted = served;
+                        continue;
+                    }
                     caution.vain |= relaxing;
                     relaxing = !relaxed && (small || !step.may_halve(dt));
                     if !relaxing && !step.may_halve(dt) {
@@ -324,6 +326,15 @@ impl<'a> Run<'a> {
         let turn = self.stability.look_at(&mut self.state, look);
         self.memory.spare = Some(evaluation);
         turn
+    }
+
+    /// Begins a path anew, where increments fail down to such a part of what had served and contact may have made a corner of it; whether it did.
+    fn begins_anew(&mut self, part: f64) -> bool {
+        let anew = self.state.arc > 0.0 && part < CORNER && !self.problem.contacts.is_empty();
+        if anew {
+            self.state.arc = 0.0;
+        }
+        anew
     }
 
     /// Whether a contact bears in the accepted state: what it holds may let go, and snap to and fro.

@@ -15,7 +15,7 @@ fn refuse_kind<T>(place: Place, must: &str, found: &Value, reader: &mut Reader) 
     let diagnostic = Diagnostic::error(what).at(place);
     let advice = match found {
         Value::Text(text) if text.parse::<f64>().is_ok() || text.parse::<bool>().is_ok() => {
-            format!("write {text}, without quotes")
+            format!("write {}, without quotes", with_digits(text))
         }
         Value::Text(text) if text.starts_with(|c: char| c.is_ascii_digit()) => {
             "a number stands alone, without quotes and without a unit: 210e3".to_owned()
@@ -24,6 +24,14 @@ fn refuse_kind<T>(place: Place, must: &str, found: &Value, reader: &mut Reader) 
     };
     reader.report(if advice.is_empty() { diagnostic } else { diagnostic.help(advice) });
     None
+}
+
+/// A number as TOML has it, with a digit on both sides of its point.
+fn with_digits(text: &str) -> String {
+    let (sign, digits) = text.split_at(usize::from(text.starts_with(['+', '-'])));
+    let before = if digits.starts_with('.') { "0" } else { "" };
+    let behind = if digits.ends_with('.') { "0" } else { "" };
+    format!("{sign}{before}{digits}{behind}")
 }
 
 /// A number of a unit within a range.
@@ -139,6 +147,18 @@ impl Form for Text {
         match &node.value {
             Value::Text(text) => Some(text.clone()),
             other => reader.refuse(node.place, &format!("{}, a string in quotes", self.0), other.kind()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_digits;
+
+    #[test]
+    fn points_stand_between_digits() {
+        for (text, told) in [(".02", "0.02"), ("-.5", "-0.5"), ("3.", "3.0"), ("210e3", "210e3"), ("true", "true")] {
+            assert_eq!(with_digits(text), told);
         }
     }
 }

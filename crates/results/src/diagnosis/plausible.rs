@@ -25,8 +25,9 @@ const FAINT_LOAD: f64 = 1e-13;
 const TOOL_SIZE: [f64; 2] = [2e-3, 300.0];
 const DISTANCE: f64 = 20.0;
 const MOTION: f64 = 50.0;
-/// Largest coordinate over a cell, whose strains rounding leaves to 2e-10 then: blocks in contact ran at 2e6 and no more at 6e6.
-const FAR: f64 = 1e6;
+/// Largest coordinate over a cell, whose strains rounding leaves to 2e-11 then: blocks in contact whose motion is prescribed ran at 2e6 and no
+/// more at 6e6, a block under a plate that loads hold and tilt at 1e4 and no more at 2e5.
+const FAR: f64 = 1e5;
 /// Coefficient of friction: that of rubber on rough ground is some 1.5.
 const FRICTION: f64 = 2.0;
 /// Angle of friction of a soil in degrees, those of clays from some 5 on.
@@ -80,11 +81,11 @@ fn far(facts: &Facts, body: &BodyFacts) -> Option<Oddity> {
     let ratio = facts.far / body.cell;
     (ratio > FAR).then(|| Oddity {
         what: format!(
-            "coordinates up to {:.1e} beside cells of {:.1e} in body `{}` leave the strains to rounding",
+            "coordinates up to {:.1e} beside cells of {:.1e} in body `{}` leave strains and gaps to rounding",
             facts.far, body.cell, body.name
         ),
         help: "move the mesh near the origin".into(),
-        weight: weight(10.0 * ratio / FAR),
+        weight: weight(ratio / FAR),
     })
 }
 

@@ -75,6 +75,8 @@ pub struct Doubted {
     pub value: f64,
     /// The limit.
     pub limit: f64,
+    /// The step in which it was worst, from one.
+    pub step: usize,
     /// Of what, where and when.
     pub place: String,
     /// What helps.

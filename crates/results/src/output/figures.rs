@@ -115,7 +115,8 @@ pub static FIGURES: &[Figure] = &[
     largest("energy_balance", "missing energy").limited(
         "0.2",
         "Work of supports and loads that is neither stored nor dissipated nor left over by rate laws, over the largest energy.",
-        "smaller increments; the figure falls with them, and where a load acts at once with an `amplitude` that leads it in",
+        "smaller increments; the figure falls with them, and where a load acts at once with an `amplitude` that leads it in; what a bond or a \
+         shape sets free as it lets go stays missing",
     ),
     largest("hypoelastic_residue", "work left over by rate laws"),
     largest("coulomb_violation", "excess over friction limit"),

@@ -98,6 +98,7 @@ pub fn certified(course: RunCourse, certificate: &Certificate, limits: &Limits) 
         words: doubt.figure.words.trim().into(),
         value: doubt.worst.value,
         limit: doubt.worst.limit.unwrap_or(f64::NAN),
+        step: doubt.worst.step,
         place: doubt.worst.place(),
         remedy: doubt.figure.limit.map_or("", |limit| limit.remedy).into(),
     };

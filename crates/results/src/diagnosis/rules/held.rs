@@ -36,10 +36,10 @@ pub(super) fn not_touching(facts: &Facts, course: &RunCourse) -> Option<Finding>
 
 /// What began apart from what is to hold it, and was thrown onto it by its load.
 pub(super) fn thrown(facts: &Facts, course: &RunCourse) -> Option<Finding> {
-    let loaded = facts.steps.iter().any(|step| !step.loads.is_empty());
+    let loaded = facts.steps.iter().position(|step| !step.loads.is_empty())? + 1;
     let open = facts.contacts.iter().find(|contact| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge))?;
-    let missing = course.doubt(&["energy_balance"]).is_some();
-    ((course.jumps > 0 || missing) && loaded && !is_wrong(facts, open)).then(|| {
+    let missing = course.doubt(&["energy_balance"]).is_some_and(|doubt| doubt.step <= loaded);
+    ((course.jumps > 0 || missing) && !is_wrong(facts, open)).then(|| {
         let gap = open.gap.unwrap_or(open.distance);
         finding(
             "not-touching",

@@ -183,6 +183,10 @@ pub trait Interface: Send + Sync {
         let (penetration, pressure, shear, dt) = (0.0, 0.0, [0.0; 2], 0.0);
         self.touch(&Past { penalty: rigid, tangential_penalty: rigid, penetration, pressure, shear, vars, dt })
     }
+    /// Whether a bond holds that a tension breaks.
+    fn is_bonded(&self, past: &Past) -> bool {
+        self.touch(past) < self.stays(past.vars)
+    }
     /// As [`InterfaceLaw::opens`] of a point that was in contact; as [`InterfaceLaw::touch`] of another.
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64;
     /// The response to a penetration and the slips along the two tangents, lengths as in [`Motion`], with its

@@ -480,12 +480,13 @@ impl<'a> Run<'a> {
         mut converged: Converged,
     ) -> Result<(), Error> {
         let (before, taken, forces) = (balance(&self.state), exchanged(&self.state), self.state.internal.clone());
+        let broke = converged.evaluation.energies.iter().any(|energies| energies.bonds > 0.0);
         let moved_before = self.moved();
         let (last_dt, reached) = (self.state.last_dt, converged.reached.take());
         let converged_freely = converged.held.is_empty();
         self.commit(converged, record.dt)?;
         let moved = self.moved();
-        if reached.is_none() && !record.relaxed && converged_freely {
+        if reached.is_none() && !record.relaxed && converged_freely && !broke {
             self.look_for_snap(record, &forces, taken);
         }
         let (state, dt) = (&mut self.state, record.dt);
@@ -502,9 +503,11 @@ impl<'a> Run<'a> {
             state.last_dt = 0.0;
             state.next_dt = dt.max(JUMPED * state.caution.usual(step));
             state.caution.forget();
-            // A relaxation that ends higher than it began has set nothing free: that energy is missing.
-            state.released += (balance(state) - before).max(0.0);
             state.jumps += 1;
+        }
+        if record.relaxed || broke {
+            // What ends higher than it began has set nothing free: that energy is missing.
+            state.released += (balance(state) - before).max(0.0);
         }
         state.increment += 1;
         state.step_increment += 1;
@@ -571,6 +574,7 @@ impl<'a> Run<'a> {
             total.supplied += if counts { new.supplied - new.across } else { new.supplied };
             total.residue += new.residue;
             total.dissipated += new.dissipated;
+            total.bonds += new.bonds;
         }
         state.u = converged.u;
         state.held += usize::from(!converged.held.is_empty());

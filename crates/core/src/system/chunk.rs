@@ -140,8 +140,8 @@ impl Chunk {
         }
         self.branches.push((branch, stencil.choice));
         self.forces.extend_from_slice(&local.force);
-        let Local { stored, dissipated, supplied, residue, across, .. } = *local;
-        self.energies += Energies { stored, dissipated, supplied, residue, across };
+        let Local { stored, dissipated, supplied, residue, across, bonds, .. } = *local;
+        self.energies += Energies { stored, dissipated, supplied, residue, across, bonds };
         Ok(())
     }
 }

@@ -28,11 +28,11 @@ const HEAD: usize = 5;
 impl Parcel {
     /// Adds a chunk that this rank owns.
     pub fn add(&mut self, chunk: &Chunk) {
-        let Energies { stored, dissipated, supplied, residue, across } = chunk.energies;
+        let Energies { stored, dissipated, supplied, residue, across, bonds } = chunk.energies;
         self.numbers.extend_from_slice(&chunk.forces);
         self.numbers.extend_from_slice(&chunk.carried);
         self.numbers.extend(chunk.branches.iter().map(|(branch, _)| f64::from(*branch)));
-        self.numbers.extend([stored, dissipated, supplied, residue, across]);
+        self.numbers.extend([stored, dissipated, supplied, residue, across, bonds]);
     }
     /// Notes that the pattern lacks entries.
     pub fn miss(&mut self) {
@@ -98,8 +98,8 @@ impl Parcels {
         into.branches.clear();
         into.branches
             .extend(next(list.len()).iter().zip(list).map(|(branch, stencil)| (*branch as u8, stencil.choice)));
-        if let &[stored, dissipated, supplied, residue, across] = next(5) {
-            into.energies = Energies { stored, dissipated, supplied, residue, across };
+        if let &[stored, dissipated, supplied, residue, across, bonds] = next(6) {
+            into.energies = Energies { stored, dissipated, supplied, residue, across, bonds };
         }
     }
 }

@@ -56,16 +56,19 @@ pub struct Energies {
     /// Work that the trapezoid of supports and loads over the last increment has too much where a contact bears nothing on the way; of a state what was
     /// taken off `supplied` for it.
     pub across: f64,
+    /// Part of what was dissipated that bonds had which broke over the last increment; of a state over all.
+    pub bonds: f64,
 }
 
 impl std::ops::AddAssign for Energies {
     fn add_assign(&mut self, other: Self) {
-        let Self { stored, dissipated, supplied, residue, across } = other;
+        let Self { stored, dissipated, supplied, residue, across, bonds } = other;
         self.stored += stored;
         self.dissipated += dissipated;
         self.supplied += supplied;
         self.residue += residue;
         self.across += across;
+        self.bonds += bonds;
     }
 }
 
@@ -220,7 +223,7 @@ pub struct State {
     pub unresolved_work: f64,
     /// Increments that ended beyond an instability,
     pub jumps: usize,
-    /// and the energy that was set free in them.
+    /// and the energy that was set free in them, and in those in which bonds broke.
     pub released: f64,
     /// Increments in which something that nothing held was held still.
     pub held: usize,

@@ -120,6 +120,8 @@ pub struct Local {
     pub residue: f64,
     /// What the work of supports and loads by its trapezoid has too much where nothing bears on a part of the way.
     pub across: f64,
+    /// Part of what is dissipated that bonds had which break.
+    pub bonds: f64,
 }
 
 impl Default for Local {
@@ -137,6 +139,7 @@ impl Default for Local {
             supplied: 0.0,
             residue: 0.0,
             across: 0.0,
+            bonds: 0.0,
         }
     }
 }
@@ -151,7 +154,7 @@ impl Local {
             self.tangent.resize(len * len, 0.0);
         }
         (self.stored, self.dissipated, self.supplied) = (0.0, 0.0, 0.0);
-        (self.residue, self.across) = (0.0, 0.0);
+        (self.residue, self.across, self.bonds) = (0.0, 0.0, 0.0);
     }
 }
 

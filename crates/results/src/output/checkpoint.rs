@@ -21,7 +21,7 @@ use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ASPERITY";
 /// Raised whenever the head or what the state holds changes.
-const VERSION: u32 = 19;
+const VERSION: u32 = 20;
 const HEAD: usize = 8 + 4 + 32 + 8 + 8 + 8 + 8;
 const SUM: usize = 32;
 
@@ -164,7 +164,14 @@ mod tests {
             time: 0.1 + 0.2,
             u: wave(300),
             internal: vec![f64::MIN_POSITIVE, -0.0, f64::INFINITY],
-            energies: vec![Energies { stored: 1.0, dissipated: 2.0, supplied: 3.0, residue: 4.0, across: 5.0 }],
+            energies: vec![Energies {
+                stored: 1.0,
+                dissipated: 2.0,
+                supplied: 3.0,
+                residue: 4.0,
+                across: 5.0,
+                bonds: 6.0,
+            }],
             histories: vec![History { starts: vec![0, 2, 5], data: wave(5) }],
             ..State::default()
         }

@@ -216,12 +216,30 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
              {time:.4}; smaller increments from the beginning of that step on make it right, those that a run chooses without `count`"
         ));
     }
+    summary.notes.extend(broken(&run.state));
     if run.state.jumps > 0 {
         summary.notes.push(format!(
             "increments relaxed to an equilibrium beyond an instability: {}; energy set free: {:.4e}",
             run.state.jumps, run.state.released
         ));
     }
+}
+
+/// What breaking bonds set free beyond their own energy, over that, from which on it is told.
+const BEYOND_BONDS: f64 = 0.1;
+
+/// What broke, and how much more energy that set free.
+fn broken(state: &State) -> Option<String> {
+    let bonds: f64 = state.energies.iter().map(|energies| energies.bonds).sum();
+    (bonds > 0.0 && state.released > BEYOND_BONDS * bonds).then(|| {
+        format!(
+            "bonds broke that took {bonds:.4e} of energy, and {:.4e} more was set free: by what breaks as a whole, or, where a crack grows \
+             from node to node, by a mesh that is too coarse at its end; the crack then takes {:.0} % more energy than the bonds have, and \
+             finer faces make that less",
+            state.released,
+            100.0 * state.released / bonds
+        )
+    })
 }
 
 /// Change of the pressure from node to node, over the pressure, from which on it is told.

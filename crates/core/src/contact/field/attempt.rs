@@ -75,6 +75,8 @@ pub struct FieldAttempt<'a> {
     pub found: RwLock<Arc<FieldSearch>>,
     /// How the coordinates of closed nodes changed and what forces their stresses were where they were evaluated last.
     pub linear: Vec<Mutex<Linear>>,
+    /// Bonds that hold whatever they bear until the state has converged, slot by slot.
+    pub bonds: Vec<bool>,
     /// Nodes that leave the stress to others of their faces, slot by slot.
     pub idle: Vec<bool>,
     /// Whether any node bore a pressure at the accepted state: one that closes then takes over from others what slides all the while.
@@ -235,17 +237,19 @@ impl FieldAttempt<'_> {
         self.shift(slot)[0] + self.nearer[slot].most + recession
     }
 
-    /// How much deeper an open node must lie for the law to answer as for a closed one, where the first guess holds it closed: it was
-    /// closed, and its pressure, carried on as the unknowns are, still presses.
+    /// How much deeper an open node must lie for the law to answer as for a closed one, where it is held: by its bond, or by the first guess if
+    /// it was closed, and its pressure, carried on as the unknowns are, still presses.
     fn lift(&self, slot: usize, past: &Past, y: [f64; COUNT]) -> f64 {
-        let old = self.history.slot(slot);
+        let (old, bonded) = (self.history.slot(slot), self.bonds[slot]);
         let pressure = old[entry::PRESSURE] + self.part * (old[entry::PRESSURE] - old[entry::PRESSURE_BEFORE]);
-        let held = self.hold.load(Ordering::Relaxed) && old[entry::STATUS] > 0.0 && pressure > 0.0;
-        if !held || y[0] > self.law.opens(past, [y[1], y[2]]) + self.contact.least {
+        let guessed = self.hold.load(Ordering::Relaxed) && old[entry::STATUS] > 0.0 && pressure > 0.0;
+        if !(bonded || guessed) || y[0] > self.law.opens(past, [y[1], y[2]]) + self.contact.least {
             return 0.0;
         }
-        self.held.store(true, Ordering::Relaxed);
-        past.penetration + self.contact.least - y[0]
+        let begun = old[entry::STATUS] > 0.0;
+        self.held.fetch_or(!bonded, Ordering::Relaxed);
+        let from = if begun { past.penetration } else { self.law.stays(past.vars) };
+        from + self.contact.least - y[0]
     }
 
     fn shift(&self, slot: usize) -> [f64; COUNT] {
@@ -310,6 +314,10 @@ impl FieldAttempt<'_> {
             }
             leave(&*self.law, old, new);
             local.across = -across(old, stencil.parted());
+            if old[entry::STATUS] > 0.0 {
+                let past = self.past(slot, old[entry::HALF]);
+                self.break_bond(&past, old[entry::XI] * old[entry::HALF], local);
+            }
             return Ok(0);
         }
         let (stretch, stretching) = stencil.stretch();
@@ -327,6 +335,9 @@ impl FieldAttempt<'_> {
             let slid = if old[entry::STATUS] == f64::from(Status::Slip as u8) { slip } else { [0.0; 2] };
             account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, slid), local);
             local.across = -across(old, -here);
+            if old[entry::STATUS] > 0.0 {
+                self.break_bond(&past, sums.area * stretch, local);
+            }
             return Ok(0);
         }
         self.refuse_leap(slot, (stencil, sums))?;
@@ -382,6 +393,39 @@ impl FieldAttempt<'_> {
         let pressure = 0.5 * (old[entry::PRESSURE] + new[entry::PRESSURE]);
         local.supplied += sums.area * stretch * pressure * (new[entry::NEARER] - old[entry::NEARER]);
         Ok(response.status as Branch)
+    }
+
+    /// Which slots have a bond at the accepted state. Where no increment has been yet, what touches has.
+    pub fn bonded(&self) -> Vec<bool> {
+        let strong = |slot: usize| self.law.is_bonded(&self.past(slot, 1.0));
+        let closed = |slot: usize| self.history.slot(slot)[entry::STATUS] > 0.0;
+        let mut bonds: Vec<bool> = (0..self.contact.slots()).map(|slot| closed(slot) && strong(slot)).collect();
+        let new: Vec<usize> = (0..self.contact.slots()).filter(|slot| !closed(*slot) && strong(*slot)).collect();
+        if !new.is_empty() {
+            let found = self.search(self.accepted);
+            let (dofs, mut sums) = (&self.contact.parts.dofs, NodeSums::default());
+            for slot in new {
+                let nodes = found.supports[slot].nodes.iter();
+                let mut u: Vec<f64> =
+                    nodes.flat_map(|&node| dofs.displacements(node).map(|dof| self.accepted[dof])).collect();
+                if let FieldTarget::Tool(rigid) = &self.contact.parts.target {
+                    u.extend(rigid.unknowns().map(|dof| self.accepted[dof]));
+                }
+                let stencil = self.stencil(&found, slot, &u);
+                let touch = self.law.touch(&self.past(slot, 1.0)) + self.contact.least;
+                bonds[slot] = self.sum(&stencil, false, &mut sums).is_some() && sums.y[0] + self.closure(slot) > touch;
+            }
+        }
+        bonds
+    }
+
+    /// Takes up the energy that a bond over an area has at its tensile strength, and which is lost as it breaks.
+    fn break_bond(&self, past: &Past, area: f64, local: &mut Local) {
+        if self.law.is_bonded(past) {
+            let strength = past.penalty * (self.law.touch(past) - self.law.stays(past.vars));
+            local.bonds = area * self.law.stored(strength, past.penalty);
+            local.dissipated += local.bonds;
+        }
     }
 
     /// What the law answers at a node, where what bears flattens.
@@ -600,7 +644,7 @@ impl Attempt for FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
-        let goes_on = self.yield_tips(u) || self.improve(new, taken)?;
+        let goes_on = self.break_bonds(new) || self.yield_tips(u) || self.improve(new, taken)?;
         if !goes_on {
             self.wear_beneath_tips(new);
         }
@@ -608,6 +652,8 @@ impl Attempt for FieldAttempt<'_> {
     }
 }
 
+/// Part of the excess over its strength of the bond that breaks first above which others break with it.
+const FIRST: f64 = 0.8;
 /// Part of what a tip had in the area of a face below which a converged increment goes on with what it has now.
 const CHANGED: f64 = 0.75;
 
@@ -688,6 +734,26 @@ impl FieldAttempt<'_> {
                 }
             }
         }
+    }
+
+    /// Breaks the bonds that bear more than their strength at a converged state, those that bear most alone: what others bear follows from it. A
+    /// state from which all of them broke at once would depend on the increment, and on the iterates that led there. Says whether any did.
+    fn break_bonds(&mut self, new: &History) -> bool {
+        let beyond = |slot: usize| {
+            let (old, values) = (self.history.slot(slot), new.slot(slot));
+            if !self.bonds[slot] || values[entry::SEGMENT] < 0.0 {
+                return 0.0;
+            }
+            let past = self.past(slot, values[entry::HALF]);
+            let slip = [entry::SLIP, entry::SLIP2].map(|slip| values[slip] - old[slip]);
+            let here = values[entry::PENETRATION] + self.closure(slot);
+            (self.law.opens(&past, slip) - here).max(0.0)
+        };
+        let beyond: Vec<f64> = (0..self.contact.slots()).map(beyond).collect();
+        let most = beyond.iter().copied().fold(0.0, f64::max);
+        let breaks = |beyond: f64| beyond > 0.0 && beyond >= FIRST * most;
+        self.bonds.iter_mut().zip(&beyond).filter(|(_, beyond)| breaks(**beyond)).for_each(|(bond, _)| *bond = false);
+        most > 0.0
     }
 
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it

@@ -120,7 +120,7 @@ impl Term for FieldContact {
         let law = self.parts.law.at(at.step, at.step_time)?;
         let normal = self.kept_penalty(history);
         let (far, depths) = (reach(self.longest, &accepted.last_change), self.depths(&accepted.u));
-        Ok(Box::new(FieldAttempt {
+        let mut attempt = FieldAttempt {
             contact: self,
             history,
             accepted: &accepted.u,
@@ -141,13 +141,16 @@ impl Term for FieldContact {
             law,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
+            bonds: Vec::new(),
             idle: self.idle(history),
             bore: (0..self.slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0),
             far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
             hold: AtomicBool::default(),
             held: AtomicBool::default(),
-        }))
+        };
+        attempt.bonds = attempt.bonded();
+        Ok(Box::new(attempt))
     }
 
     fn name_of(&self, slot: usize) -> String {

@@ -145,7 +145,8 @@ impl Attempt for LedAttempt<'_> {
             let branch = self.attempt.evaluate(index, &Stencil { len: count, ..*stencil }, new, &mut own)?;
             map.pull(self.following, (&own, &rates), local);
             (local.stored, local.dissipated) = (own.stored, own.dissipated);
-            (local.supplied, local.residue, local.across) = (own.supplied, own.residue, own.across);
+            (local.supplied, local.residue) = (own.supplied, own.residue);
+            (local.across, local.bonds) = (own.across, own.bonds);
             Ok(branch)
         })
     }

@@ -117,6 +117,9 @@ impl Interface for Closing {
     fn touch(&self, past: &Past) -> f64 {
         self.law.touch(&self.seen(past))
     }
+    fn keeps(&self, past: &Past) -> f64 {
+        self.law.keeps(&self.seen(past))
+    }
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
         self.law.opens(&self.seen(past), slip)
     }

@@ -75,6 +75,9 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
     fn touch(&self, past: &Past) -> f64 {
         self.law.touch(past)
     }
+    fn keeps(&self, past: &Past) -> f64 {
+        self.law.keeps(past)
+    }
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
         self.law.opens(past, slip)
     }

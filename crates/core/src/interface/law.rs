@@ -147,6 +147,10 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
     fn opens(&self, past: &Past, _slip: [f64; 2]) -> f64 {
         self.touch(past)
     }
+    /// The penetration down to which a bond has all of its shear strength; by default that without pressure.
+    fn keeps(&self, past: &Past) -> f64 {
+        self.touch(&Past { penalty: f64::INFINITY, tangential_penalty: f64::INFINITY, ..*past })
+    }
     /// The radius on the undeformed surface over which friction takes the mean of the pressure; zero for that of the point.
     fn radius(&self) -> f64 {
         0.0
@@ -183,6 +187,8 @@ pub trait Interface: Send + Sync {
         let (penetration, pressure, shear, dt) = (0.0, 0.0, [0.0; 2], 0.0);
         self.touch(&Past { penalty: rigid, tangential_penalty: rigid, penetration, pressure, shear, vars, dt })
     }
+    /// As [`InterfaceLaw::keeps`].
+    fn keeps(&self, past: &Past) -> f64;
     /// Whether a bond holds that a tension breaks.
     fn is_bonded(&self, past: &Past) -> bool {
         self.touch(past) < self.stays(past.vars)
@@ -254,6 +260,9 @@ impl<L: InterfaceLaw> Interface for Law<L> {
     }
     fn touch(&self, past: &Past) -> f64 {
         self.0.touch(past)
+    }
+    fn keeps(&self, past: &Past) -> f64 {
+        self.0.keeps(past)
     }
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
         let touch = self.0.touch(past);

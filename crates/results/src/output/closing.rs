@@ -225,21 +225,25 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     }
 }
 
-/// What breaking bonds set free beyond their own energy, over that, from which on it is told.
+/// What breaking bonds set free beyond their own energy, over that, from which on it is told,
 const BEYOND_BONDS: f64 = 0.1;
+/// and from which on more breaks at once than a crack does.
+const AS_A_WHOLE: f64 = 2.0;
 
 /// What broke, and how much more energy that set free.
 fn broken(state: &State) -> Option<String> {
     let bonds: f64 = state.energies.iter().map(|energies| energies.bonds).sum();
-    (bonds > 0.0 && state.released > BEYOND_BONDS * bonds).then(|| {
-        format!(
-            "bonds broke that took {bonds:.4e} of energy, and {:.4e} more was set free: by what breaks as a whole, or, where a crack grows \
-             from node to node, by a mesh that is too coarse at its end; the crack then takes {:.0} % more energy than the bonds have, and \
-             finer faces make that less",
-            state.released,
-            100.0 * state.released / bonds
-        )
-    })
+    let beyond = state.released / bonds;
+    let why = match beyond {
+        _ if bonds == 0.0 || beyond <= BEYOND_BONDS => return None,
+        _ if beyond > AS_A_WHOLE => "as where much breaks at once".into(),
+        _ => format!(
+            "where a crack grows from node to node it takes {:.0} % more energy than the bonds have, since the mesh is too coarse at its \
+             end; finer faces make that less",
+            100.0 * beyond
+        ),
+    };
+    Some(format!("bonds broke that took an energy of {bonds:.4e}, and {:.4e} more was set free: {why}", state.released))
 }
 
 /// Change of the pressure from node to node, over the pressure, from which on it is told.

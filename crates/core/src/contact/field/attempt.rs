@@ -243,13 +243,15 @@ impl FieldAttempt<'_> {
         let (old, bonded) = (self.history.slot(slot), self.bonds[slot]);
         let pressure = old[entry::PRESSURE] + self.part * (old[entry::PRESSURE] - old[entry::PRESSURE_BEFORE]);
         let guessed = self.hold.load(Ordering::Relaxed) && old[entry::STATUS] > 0.0 && pressure > 0.0;
-        if !(bonded || guessed) || y[0] > self.law.opens(past, [y[1], y[2]]) + self.contact.least {
+        let y0 = y[0] - self.contact.least;
+        if bonded {
+            return (self.law.keeps(past) - y0).max(0.0);
+        }
+        if !guessed || y0 > self.law.opens(past, [y[1], y[2]]) {
             return 0.0;
         }
-        let begun = old[entry::STATUS] > 0.0;
-        self.held.fetch_or(!bonded, Ordering::Relaxed);
-        let from = if begun { past.penetration } else { self.law.stays(past.vars) };
-        from + self.contact.least - y[0]
+        self.held.store(true, Ordering::Relaxed);
+        past.penetration - y0
     }
 
     fn shift(&self, slot: usize) -> [f64; COUNT] {
@@ -343,7 +345,9 @@ impl FieldAttempt<'_> {
         self.refuse_leap(slot, (stencil, sums))?;
         let y = [seen, sums.y[1], sums.y[2], 0.0];
         let flat = self.flattened((slot, &past), &y)?;
-        let (touch, penetration) = (law.touch(&past), seen - contact.least - flat);
+        // A bond that is held near its strength and bears no more than that is as its law has it.
+        let own = if here > law.opens(&past, slip) + contact.least { here } else { seen };
+        let (touch, penetration) = (law.touch(&past), own - contact.least - flat);
         new[entry::PENETRATION] -= contact.least;
         (new[entry::CLOSURE], new[entry::NEARER]) = (new[entry::CLOSURE] - flat, new[entry::NEARER] - flat);
         let part = in_contact(penetration - touch, past.penetration - touch);
@@ -644,7 +648,7 @@ impl Attempt for FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
-        let goes_on = self.break_bonds(new) || self.yield_tips(u) || self.improve(new, taken)?;
+        let goes_on = self.break_bonds(new)? || self.yield_tips(u) || self.improve(new, taken)?;
         if !goes_on {
             self.wear_beneath_tips(new);
         }
@@ -654,6 +658,8 @@ impl Attempt for FieldAttempt<'_> {
 
 /// Part of the excess over its strength of the bond that breaks first above which others break with it.
 const FIRST: f64 = 0.8;
+/// Excess over a strength, as a part of it, that is rounding.
+const ROUNDED: f64 = 1e-9;
 /// Part of what a tip had in the area of a face below which a converged increment goes on with what it has now.
 const CHANGED: f64 = 0.75;
 
@@ -738,22 +744,29 @@ impl FieldAttempt<'_> {
 
     /// Breaks the bonds that bear more than their strength at a converged state, those that bear most alone: what others bear follows from it. A
     /// state from which all of them broke at once would depend on the increment, and on the iterates that led there. Says whether any did.
-    fn break_bonds(&mut self, new: &History) -> bool {
+    fn break_bonds(&mut self, new: &History) -> Result<bool, Failure> {
         let beyond = |slot: usize| {
             let (old, values) = (self.history.slot(slot), new.slot(slot));
             if !self.bonds[slot] || values[entry::SEGMENT] < 0.0 {
-                return 0.0;
+                return Ok(0.0);
             }
             let past = self.past(slot, values[entry::HALF]);
-            let slip = [entry::SLIP, entry::SLIP2].map(|slip| values[slip] - old[slip]);
-            let here = values[entry::PENETRATION] + self.closure(slot);
-            (self.law.opens(&past, slip) - here).max(0.0)
+            let [s, t] = [entry::SLIP, entry::SLIP2].map(|slip| values[slip] - old[slip]);
+            let here = values[entry::PENETRATION] + self.contact.least + self.closure(slot);
+            let lift = self.lift(slot, &past, [here, s, t]);
+            let held = extended(self.answer_of((slot, &past), &[here + lift, s, t, 0.0])?, lift).stress;
+            let own = self.answer_of((slot, &past), &[here, s, t, 0.0])?.stress;
+            let open = here - self.contact.least <= self.law.opens(&past, [s, t]);
+            let strength = past.penalty * (self.law.stays(past.vars) - self.law.touch(&past));
+            let [sheared, shear] = [held, own].map(|stress| stress[1].hypot(stress[2]));
+            let beyond = if open { -held[0] - strength } else { sheared - shear };
+            Ok::<_, Failure>(if beyond > ROUNDED * strength { beyond } else { 0.0 })
         };
-        let beyond: Vec<f64> = (0..self.contact.slots()).map(beyond).collect();
+        let beyond = (0..self.contact.slots()).map(beyond).collect::<Result<Vec<f64>, _>>()?;
         let most = beyond.iter().copied().fold(0.0, f64::max);
         let breaks = |beyond: f64| beyond > 0.0 && beyond >= FIRST * most;
         self.bonds.iter_mut().zip(&beyond).filter(|(_, beyond)| breaks(**beyond)).for_each(|(bond, _)| *bond = false);
-        most > 0.0
+        Ok(most > 0.0)
     }
 
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it

@@ -183,6 +183,12 @@ impl InterfaceLaw for Dilatant {
         -past.vars[DILATION] - self.strength(past)[1] / past.penalty
     }
 
+    fn keeps(&self, past: &Past) -> f64 {
+        let [cohesion, tension] = self.strength(past);
+        let lost = (cohesion - self.friction * tension) / (STEEPEST - self.friction).max(1.0);
+        self.touch(past) + lost.clamp(1e-3 * tension, tension) / past.penalty
+    }
+
     /// At the tensile strength there is no shear strength left: where all of the slip has dilated.
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
         let trial = [0, 1].map(|i| past.shear[i] + past.tangential_penalty * slip[i]);

@@ -147,7 +147,7 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
     fn opens(&self, past: &Past, _slip: [f64; 2]) -> f64 {
         self.touch(past)
     }
-    /// The penetration down to which a bond has all of its shear strength; by default that without pressure.
+    /// The penetration down to which a bond has all of its shear strength, if any under tension; by default that without pressure.
     fn keeps(&self, past: &Past) -> f64 {
         self.touch(&Past { penalty: f64::INFINITY, tangential_penalty: f64::INFINITY, ..*past })
     }

@@ -97,8 +97,13 @@ impl FieldAttempt<'_> {
         let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
         let list_touched =
             |now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>| self.list_touched(now, patch, nodes);
-        let mut found =
-            self.contact.find((&now, tips), self.reach, (&self.depths, (&self.before, self.accepted)), list_touched);
+        let mut found = self.contact.find(
+            (&now, tips),
+            self.reach,
+            (&self.depths, (&self.before, self.accepted)),
+            Some(self.history),
+            list_touched,
+        );
         for (slot, support) in found.supports.iter_mut().enumerate() {
             let pressed = self.history.slot(slot)[entry::PRESSURE] > 0.0;
             if let Some(node) = self.contact.node_of(slot).filter(|_| pressed && support.patches.is_empty()) {
@@ -372,8 +377,9 @@ impl FieldAttempt<'_> {
         let mut t = response.stress;
         let wanted = local.wants_tangent || lift > 0.0;
         let tangent = if wanted { self.behind((slot, &past), flat, &y)? } else { Answer::default() };
+        let tangent = self.extended(slot, tangent, lift);
         if lift > 0.0 {
-            t.copy_from_slice(&extended(tangent, lift).stress[..COUNT]);
+            t.copy_from_slice(&tangent.stress[..COUNT]);
         }
         for (c, t) in t.iter().enumerate() {
             let unit = &sums.forces[c * n..(c + 1) * n];
@@ -399,9 +405,13 @@ impl FieldAttempt<'_> {
         Ok(response.status as Branch)
     }
 
-    /// Which slots have a bond at the accepted state. Where no increment has been yet, what touches has.
+    /// Which slots have a brittle bond at the accepted state: one that keeps its shear strength under some tension. Where no increment has been yet, what
+    /// touches has.
     pub fn bonded(&self) -> Vec<bool> {
-        let strong = |slot: usize| self.law.is_bonded(&self.past(slot, 1.0));
+        let strong = |slot: usize| {
+            let past = self.past(slot, 1.0);
+            self.law.is_bonded(&past) && self.law.keeps(&past) < self.law.stays(past.vars)
+        };
         let closed = |slot: usize| self.history.slot(slot)[entry::STATUS] > 0.0;
         let mut bonds: Vec<bool> = (0..self.contact.slots()).map(|slot| closed(slot) && strong(slot)).collect();
         let new: Vec<usize> = (0..self.contact.slots()).filter(|slot| !closed(*slot) && strong(*slot)).collect();
@@ -421,6 +431,15 @@ impl FieldAttempt<'_> {
             }
         }
         bonds
+    }
+
+    /// The answer of a closed node, carried on along its tangent to a penetration that is less by `lift`; a bond keeps its shear strength.
+    fn extended(&self, slot: usize, mut answer: Answer, lift: f64) -> Answer {
+        if self.bonds[slot] && lift > 0.0 {
+            answer.slopes[1..].iter_mut().for_each(|slopes| slopes[0] = 0.0);
+        }
+        answer.stress.iter_mut().zip(&answer.slopes).for_each(|(stress, slopes)| *stress -= slopes[0] * lift);
+        answer
     }
 
     /// Takes up the energy that a bond over an area has at its tensile strength, and which is lost as it breaks.
@@ -538,12 +557,6 @@ fn add_stretching(slopes: &[f64; COUNT], stretching: &[f64], sums: &NodeSums, ta
     }
 }
 
-/// The answer of a closed node, carried on along its tangent to a penetration that is less by `lift`.
-fn extended(mut answer: Answer, lift: f64) -> Answer {
-    answer.stress.iter_mut().zip(&answer.slopes).for_each(|(stress, slopes)| *stress -= slopes[0] * lift);
-    answer
-}
-
 /// Adds `factor H C G`.
 fn add_material(slopes: &[Coordinates; 4], factor: f64, sums: &NodeSums, tangent: &mut [f64]) {
     let n = sums.gradients.len() / COUNT;
@@ -620,7 +633,7 @@ impl Attempt for FieldAttempt<'_> {
         let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner).supports[stencil].stretch;
         let past = self.past(stencil, stretch);
         let lift = self.lift(stencil, &past, [y[0], y[1], y[2]]);
-        Ok(extended(self.answer_of((stencil, &past), &[y[0] + lift, y[1], y[2], y[3]])?, lift))
+        Ok(self.extended(stencil, self.answer_of((stencil, &past), &[y[0] + lift, y[1], y[2], y[3]])?, lift))
     }
 
     fn sticking(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
@@ -648,6 +661,7 @@ impl Attempt for FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
+        self.refuse_passage(new)?;
         let goes_on = self.break_bonds(new)? || self.yield_tips(u) || self.improve(new, taken)?;
         if !goes_on {
             self.wear_beneath_tips(new);
@@ -742,6 +756,22 @@ impl FieldAttempt<'_> {
         }
     }
 
+    /// Refuses a state in which a node has closed on a side of a body behind which it lay: it has gone through the body, as where iterations push off a
+    /// block that stands on an edge.
+    fn refuse_passage(&self, new: &History) -> Result<(), Failure> {
+        let found = self.found();
+        for slot in 0..self.contact.nodal_slots() {
+            let closes = self.history.slot(slot)[entry::STATUS] == 0.0 && new.slot(slot)[entry::STATUS] > 0.0;
+            let patches = found.supports[slot].patches.iter().filter(|_| closes);
+            let mut patches = patches.map(|&(number, _)| &found.patches[number]);
+            if patches.any(|found| self.contact.lay_beside((&found.patch, found.place), &self.before, self.history)) {
+                let reason = format!("{} came out through another side of the body", self.contact.name_of(slot));
+                return Err(Failure::new(reason).of(FailureKind::Passage));
+            }
+        }
+        Ok(())
+    }
+
     /// Breaks the bonds that bear more than their strength at a converged state, those that bear most alone: what others bear follows from it. A
     /// state from which all of them broke at once would depend on the increment, and on the iterates that led there. Says whether any did.
     fn break_bonds(&mut self, new: &History) -> Result<bool, Failure> {
@@ -754,7 +784,7 @@ impl FieldAttempt<'_> {
             let [s, t] = [entry::SLIP, entry::SLIP2].map(|slip| values[slip] - old[slip]);
             let here = values[entry::PENETRATION] + self.contact.least + self.closure(slot);
             let lift = self.lift(slot, &past, [here, s, t]);
-            let held = extended(self.answer_of((slot, &past), &[here + lift, s, t, 0.0])?, lift).stress;
+            let held = self.extended(slot, self.answer_of((slot, &past), &[here + lift, s, t, 0.0])?, lift).stress;
             let own = self.answer_of((slot, &past), &[here, s, t, 0.0])?.stress;
             let open = here - self.contact.least <= self.law.opens(&past, [s, t]);
             let strength = past.penalty * (self.law.stays(past.vars) - self.law.touch(&past));

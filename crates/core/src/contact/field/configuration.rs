@@ -74,8 +74,10 @@ pub struct SeenPart {
     pub patch: Patch,
     /// Least gap among its samples.
     pub least: f64,
-    /// Gap in its middle.
+    /// Gap in its middle,
     pub middle: f64,
+    /// and the place of that.
+    pub place: [f64; 2],
 }
 
 impl Configuration<'_> {
@@ -184,7 +186,7 @@ impl Configuration<'_> {
     /// Gaps of a patch at `places`, the last of them its middle; none if it does not look at the surface. What lies beyond the border
     /// of a piece of a tool in space is not seen.
     pub(super) fn judge(&self, face: &FaceInPlace, patch: Patch, places: &[[f64; 2]]) -> Option<SeenPart> {
-        let (mut looks, mut least, mut middle) = (false, f64::INFINITY, f64::INFINITY);
+        let (mut looks, mut least, mut middle, mut place) = (false, f64::INFINITY, f64::INFINITY, [0.0; 2]);
         for &xi in places {
             let at = face.at(xi);
             let (gap, cosine) = match &self.target {
@@ -206,8 +208,8 @@ impl Configuration<'_> {
                 }
             };
             looks |= cosine > LEAST_COSINE;
-            (least, middle) = (least.min(gap), gap);
+            (least, middle, place) = (least.min(gap), gap, xi);
         }
-        looks.then_some(SeenPart { patch, least, middle })
+        looks.then_some(SeenPart { patch, least, middle, place })
     }
 }

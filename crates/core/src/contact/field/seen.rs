@@ -1,14 +1,16 @@
 //! What the nodes of a field see of its target.
 
-use super::configuration::{Configuration, SeenPart};
+use super::configuration::{Configuration, SeenPart, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::Patch;
 use super::face::{FieldFace, PlacedFace};
-use super::faces::{FaceRay, FacesInPlace};
+use super::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE};
 use super::stencil::{NodeSums, StencilInPlace};
 use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
+use crate::contact::record::entry;
 use crate::system::History;
+use crate::tensor::BoundingBox;
 use std::cell::OnceCell;
 
 impl FieldContact {
@@ -18,6 +20,7 @@ impl FieldContact {
         (now, tips): (&Configuration, Vec<Option<TipFoot>>),
         reach: f64,
         (depths, before): (&[f64], (&Configuration, &[f64])),
+        history: Option<&History>,
         mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
     ) -> FieldSearch {
         let (mut near, mut patches) = (Vec::new(), Vec::new());
@@ -35,20 +38,23 @@ impl FieldContact {
         let whole = || boundary.get_or_init(|| self.boundary.in_place(self.site(), before.1));
         for (number, &most) in depths.iter().enumerate() {
             for seen in now.patches(number, reach, &mut near) {
+                if history.is_some_and(|history| self.is_beside(&seen, before.0, history)) {
+                    continue;
+                }
                 let depth = self.depth_at(&seen, most, (before.0, &whole));
                 let piece = self.piece_of(seen.patch.target);
                 for corner in 0..self.parts.surface.faces[number].corners() {
                     let slot = self.slot(self.parts.surface.field[number][corner], piece);
                     see(slot, (patches.len(), corner), [seen.middle, seen.least], depth);
                 }
-                patches.push(FoundPatch { patch: seen.patch, nodes: Vec::new() });
+                patches.push(FoundPatch { patch: seen.patch, place: seen.place, nodes: Vec::new() });
             }
         }
         for (number, found) in tips.into_iter().enumerate() {
             if let Some(found) = found.filter(|found| found.patch.tip.is_some_and(|tip| tip.share > 0.0)) {
                 let depth = depths[found.patch.face];
                 see(self.nodal_slots() + number, (patches.len(), 0), [found.gap; 2], depth);
-                patches.push(FoundPatch { patch: found.patch, nodes: Vec::new() });
+                patches.push(FoundPatch { patch: found.patch, place: found.patch.near, nodes: Vec::new() });
             }
         }
         for (support, least) in supports.iter_mut().zip(least) {
@@ -56,7 +62,7 @@ impl FieldContact {
                 support.patches.clear();
             }
             for &(number, _) in &support.patches {
-                let FoundPatch { patch, nodes } = &mut patches[number];
+                let FoundPatch { patch, nodes, .. } = &mut patches[number];
                 if nodes.is_empty() {
                     self.list_nodes(patch, nodes);
                     touched(now, patch, nodes);
@@ -128,10 +134,61 @@ impl FieldContact {
         if !self.roles.itself || -seen.middle <= DEEP * depth {
             return depth;
         }
-        let (number, [from, to]) = (seen.patch.face, seen.patch.near);
+        let number = seen.patch.face;
         let face = &self.parts.surface.faces[number];
-        let middle = if self.parts.surface.plane { [0.5 * (from + to), 0.0] } else { face.middle() };
-        depth.min(self.behind((face, &before.placed[number]), middle, whole()))
+        depth.min(self.behind((face, &before.placed[number]), seen.place, whole()))
+    }
+
+    /// Whether a patch lies behind a face of a body beside whose border it came there. What has entered one side of a body near an edge by a hair lies
+    /// behind the other side as deep as it is away from that, and is no business of it.
+    fn is_beside(&self, seen: &SeenPart, before: &Configuration, history: &History) -> bool {
+        -seen.middle > self.behind_from(seen.patch.face) && self.lay_beside((&seen.patch, seen.place), before, history)
+    }
+
+    /// Depth from which on it is asked how what lies behind a face came there.
+    fn behind_from(&self, face: usize) -> f64 {
+        BEHIND * self.parts.surface.size(face, &self.parts.mesh)
+    }
+
+    /// Whether a place of a patch was behind its face at the accepted state, bore nothing, and was outside of the body past the border of the smooth piece of
+    /// that face, or nearer to another piece.
+    pub(super) fn lay_beside(
+        &self,
+        (patch, place): (&Patch, [f64; 2]),
+        before: &Configuration,
+        history: &History,
+    ) -> bool {
+        let (TargetInPlace::Faces(target), Some(faces)) = (&before.target, self.parts.target.as_faces()) else {
+            return false;
+        };
+        let (surface, piece, deep) = (&self.parts.surface, self.piece_of(patch.target), self.behind_from(patch.face));
+        let mut corners = 0..surface.faces[patch.face].corners();
+        let slot = |corner: usize| self.slot(surface.field[patch.face][corner], piece);
+        if corners.any(|corner| history.slot(slot(corner))[entry::STATUS] > 0.0) {
+            return false;
+        }
+        let at = before.face(patch.face).at(place);
+        let ray = FaceRay { x: at.x, n: at.normal.unit() };
+        let Some(lay) = target.project(patch.target, &ray).map(|hit| -hit.gap).filter(|lay| *lay > deep) else {
+            return false;
+        };
+        let own = |face: usize, hit: &FaceProjection| {
+            self.piece_of(face) == piece && -hit.normal().dot(ray.n) > LEAST_COSINE && hit.gap <= deep
+        };
+        let Some((_, hit)) = target.nearest(&ray, [-2.0 * lay, deep], own) else { return true };
+        if hit.gap >= -deep {
+            return false;
+        }
+        // Before the first increment bodies may be meant to lie in each other.
+        let begun = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::XI] > 0.0);
+        let most = if begun { lay } else { SHALLOW * lay };
+        let mut near = Vec::new();
+        target.near(&BoundingBox::of([ray.x]), most, &mut near);
+        near.iter().filter(|&&face| self.piece_of(face) != piece && self.may_touch(patch.face, face)).any(|&face| {
+            let n = -faces.surface.middle_normal(&faces.surface.faces[face], target.placed(face));
+            let out = target.project(face, &FaceRay { x: ray.x, n });
+            out.is_some_and(|hit| target.holds(face, hit.s, PAST) && (-most..deep).contains(&hit.gap))
+        })
     }
 
     /// What each node sees at displacements `u`, as far as the accepted state alone tells; of the tips all feet, where that has a
@@ -144,7 +201,7 @@ impl FieldContact {
             Some(history) => now.tips(self.longest, None, self.known_feet(history)),
             None => now.tips(self.longest, Some(&[]), |_| None),
         };
-        self.find((&now, tips), reach, (&depths, (&now, u)), |_, _, _| {})
+        self.find((&now, tips), reach, (&depths, (&now, u)), history, |_, _, _| {})
     }
 
     /// Values of a stencil's unknowns.
@@ -175,5 +232,10 @@ impl FieldContact {
 
 /// Depth, in units of the largest admissible one, up to which a face is surely not the body's own far side.
 const THROUGH: f64 = 1.8;
+/// Depth over the size of a face from which on it is asked through which piece of a body a place came to lie behind a face,
+const BEHIND: f64 = 0.02;
+/// how much nearer another must be at the beginning of a run, and how far past its edges, in reference coordinates, that is asked for.
+const SHALLOW: f64 = 0.2;
+const PAST: f64 = 0.1;
 /// Part of the largest admissible depth from which on a patch of a surface that touches itself is asked for its own.
 const DEEP: f64 = 0.25;

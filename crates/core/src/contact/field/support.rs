@@ -6,8 +6,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// A patch and the nodes of the mesh on which its points depend, ascending.
 #[derive(Debug, Clone)]
 pub struct FoundPatch {
-    /// The patch.
+    /// The patch,
     pub patch: Patch,
+    /// and its middle on the face.
+    pub place: [f64; 2],
     /// The nodes.
     pub nodes: Vec<usize>,
 }

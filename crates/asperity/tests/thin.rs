@@ -5,7 +5,7 @@ mod support;
 
 use asperity::solid::Formulation;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
-use support::{columns, made, run};
+use support::{columns, made, model, run};
 
 /// What the first body became, and the mean displacement along `axis` of a side at the end.
 fn ended(deck: &str, side: &str, axis: usize) -> (Formulation, f64) {
@@ -314,5 +314,36 @@ fn what_is_stretched_evenly_does_not_bend() {
         let (body, keep) = (&made.model.bodies[0].0, run(&made.model));
         assert!(body.choices()[0].advice().next().is_some());
         assert_eq!(body.bends(&keep.states.last().unwrap().u), bends, "{moved}");
+    }
+}
+
+/// A strip thinner than a quarter of the cells of the block on which it slides was refused as one that the block passes through.
+#[test]
+fn a_strip_slides_on_a_block_of_coarse_cells() {
+    for (cell, thickness, young) in [("quad4", 0.2, 1000.0), ("quad8", 0.1, 1000.0), ("quad4", 0.2, 200e3)] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.a.rectangle = {{ from = [0.0, -5.0], to = [10.0, 0.0], cells = [10, 5], cell = "{cell}" }}
+mesh.part.s.rectangle = {{ from = [-3.0, 0.0], to = [9.0, {thickness}], cells = [30, 1], cell = "{cell}" }}
+material.m.elastic = {{ young = 1000.0, poisson = 0.3 }}
+material.n.elastic = {{ young = {young}, poisson = 0.3 }}
+body.a.material = "m"
+body.s.material = "n"
+contact.c = {{ surface = "s.bottom", target = "a.top", law.coulomb.friction = 0.3 }}
+group.pr = {{ of = "s.top", x = [1.9, 7.1] }}
+[[step]]
+displacement."a.bottom" = {{ x = 0.0, y = 0.0 }}
+displacement."s.left".x = 0.0
+pressure.pr = {{ value = 2.0, kind = "dead" }}
+[[step]]
+displacement."s.left".x = -2.0
+"#
+        );
+        let model = model(&deck, &[]);
+        let table = columns(&model, &run(&model));
+        let [pulled, pressed] = ["x", "y"].map(|axis| *table[&format!("contact.c.force.{axis}")].last().unwrap());
+        assert!(pressed > 9.0 && (pulled / pressed - 0.3).abs() < 0.01, "{cell} {thickness}: {pulled} {pressed}");
     }
 }

@@ -159,15 +159,17 @@ impl Way<'_> {
         Some(Passage { depth: -self.height(*entry, part), piece })
     }
 
-    /// The piece closest below which the point is, if it is close.
+    /// The piece that is closest to the point, if it is close and the point below it: one that lies outside of a thin body, by however little, is below the
+    /// far side of that.
     fn resting(&self, near: &[usize], part: f64, depth: f64) -> Option<usize> {
         let p = (self.at)(part);
-        let below = |&piece: &usize| {
+        let height = |&piece: &usize| {
             let simplex = (self.piece)(piece, part);
-            let below = -simplex.height(p);
-            (below >= 0.0 && below <= depth && simplex.holds(p)).then_some((below, piece))
+            let height = simplex.height(p);
+            (height.abs() <= depth && simplex.holds(p)).then_some((height, piece))
         };
-        near.iter().filter_map(below).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, piece)| piece)
+        let closest = near.iter().filter_map(height).min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        closest.filter(|(height, _)| *height <= 0.0).map(|(_, piece)| piece)
     }
 
     /// Where the way meets a piece; most are never met.
@@ -319,6 +321,24 @@ mod tests {
             [(1.2, 0.1, 0.0), (1.2, 0.7, 0.0), (0.995, -3.0, 0.0), (1.0, 0.5, 0.4), (-0.1, 2.0, 0.0)]
         {
             assert_eq!(thickness_passed(start, by, rise), None, "{start} {by} {rise}");
+        }
+    }
+
+    /// Beside a strip thinner than what a point may lie below a side and rest on it, a point that lies outside of one side is none below the other.
+    #[test]
+    fn a_thin_strip_is_not_passed_by_what_lies_beside_it() {
+        let side = |y: f64, sign: f64| Simplex::segment(Vec3::new(2.0 * sign, y, 0.0), Vec3::new(-2.0 * sign, y, 0.0));
+        let pieces = [side(0.2, 1.0), side(0.0, -1.0)];
+        let passes = |from: f64, to: f64| {
+            let at = |part: f64| Vec3::new(0.3, from + (to - from) * part, 0.0);
+            let way = Way { at: &at, piece: &|number: usize, _| pieces[number], steps: 4, near: 0.25 };
+            way.passage(&Hierarchy::new(true, pieces.into_iter().map(|p| (p, bounds(p.corners)))), &|_| true).is_some()
+        };
+        for (from, to) in [(-1e-3, 1e-3), (1e-3, -1e-3), (-1e-3, -2e-3), (1e-3, 2e-3), (0.201, 0.199), (0.199, 0.201)] {
+            assert!(!passes(from, to), "{from} {to}");
+        }
+        for (from, to) in [(0.21, -0.01), (-0.01, 0.21), (0.21, 1e-5), (0.199, -1e-3), (0.199, 1e-5)] {
+            assert!(passes(from, to), "{from} {to}");
         }
     }
 }

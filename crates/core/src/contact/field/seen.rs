@@ -151,7 +151,7 @@ impl FieldContact {
     }
 
     /// Whether a place of a patch was behind its face at the accepted state, bore nothing, and was outside of the body past the border of the smooth piece of
-    /// that face, or nearer to another piece.
+    /// that face, or nearer to another piece, on either side of that.
     pub(super) fn lay_beside(
         &self,
         (patch, place): (&Patch, [f64; 2]),
@@ -187,7 +187,7 @@ impl FieldContact {
         near.iter().filter(|&&face| self.piece_of(face) != piece && self.may_touch(patch.face, face)).any(|&face| {
             let n = -faces.surface.middle_normal(&faces.surface.faces[face], target.placed(face));
             let out = target.project(face, &FaceRay { x: ray.x, n });
-            out.is_some_and(|hit| target.holds(face, hit.s, PAST) && (-most..deep).contains(&hit.gap))
+            out.is_some_and(|hit| target.holds(face, hit.s, PAST) && hit.gap.abs() < most)
         })
     }
 

@@ -764,7 +764,7 @@ impl FieldAttempt<'_> {
             let closes = self.history.slot(slot)[entry::STATUS] == 0.0 && new.slot(slot)[entry::STATUS] > 0.0;
             let patches = found.supports[slot].patches.iter().filter(|_| closes);
             let mut patches = patches.map(|&(number, _)| &found.patches[number]);
-            if patches.any(|found| self.contact.lay_beside((&found.patch, found.place), &self.before, self.history)) {
+            if patches.any(|found| self.contact.comes_out(found, &self.before, self.history)) {
                 let reason = format!("{} came out through another side of the body", self.contact.name_of(slot));
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }

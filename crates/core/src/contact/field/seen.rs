@@ -142,26 +142,28 @@ impl FieldContact {
     /// Whether a patch lies behind a face of a body beside whose border it came there. What has entered one side of a body near an edge by a hair lies
     /// behind the other side as deep as it is away from that, and is no business of it.
     fn is_beside(&self, seen: &SeenPart, before: &Configuration, history: &History) -> bool {
-        -seen.middle > self.behind_from(seen.patch.face) && self.lay_beside((&seen.patch, seen.place), before, history)
+        let deep = BEHIND * self.parts.surface.size(seen.patch.face, &self.parts.mesh);
+        -seen.middle > deep && self.lay_beside((&seen.patch, seen.place), deep, (before, history))
     }
 
-    /// Depth from which on it is asked how what lies behind a face came there.
-    fn behind_from(&self, face: usize) -> f64 {
-        BEHIND * self.parts.surface.size(face, &self.parts.mesh)
+    /// Whether a place of a patch that has closed was beside the border of its face so, and has come out through it.
+    pub(super) fn comes_out(&self, found: &FoundPatch, before: &Configuration, history: &History) -> bool {
+        let deep = OUT * self.parts.surface.size(found.patch.face, &self.parts.mesh);
+        self.lay_beside((&found.patch, found.place), deep, (before, history))
     }
 
-    /// Whether a place of a patch was behind its face at the accepted state, bore nothing, and was outside of the body past the border of the smooth piece of
-    /// that face, or nearer to another piece, on either side of that.
-    pub(super) fn lay_beside(
+    /// Whether a place of a patch was deeper than this behind its face at the accepted state, bore nothing, and was outside of the body past the border of the
+    /// smooth piece of that face, or nearer to another piece, on either side of that.
+    fn lay_beside(
         &self,
         (patch, place): (&Patch, [f64; 2]),
-        before: &Configuration,
-        history: &History,
+        deep: f64,
+        (before, history): (&Configuration, &History),
     ) -> bool {
         let (TargetInPlace::Faces(target), Some(faces)) = (&before.target, self.parts.target.as_faces()) else {
             return false;
         };
-        let (surface, piece, deep) = (&self.parts.surface, self.piece_of(patch.target), self.behind_from(patch.face));
+        let (surface, piece) = (&self.parts.surface, self.piece_of(patch.target));
         let mut corners = 0..surface.faces[patch.face].corners();
         let slot = |corner: usize| self.slot(surface.field[patch.face][corner], piece);
         if corners.any(|corner| history.slot(slot(corner))[entry::STATUS] > 0.0) {
@@ -234,6 +236,8 @@ impl FieldContact {
 const THROUGH: f64 = 1.8;
 /// Depth over the size of a face from which on it is asked through which piece of a body a place came to lie behind a face,
 const BEHIND: f64 = 0.02;
+/// from which on it does not come out there in one increment,
+const OUT: f64 = 0.1;
 /// how much nearer another must be at the beginning of a run, and how far past its edges, in reference coordinates, that is asked for.
 const SHALLOW: f64 = 0.2;
 const PAST: f64 = 0.1;

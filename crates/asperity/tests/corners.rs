@@ -5,7 +5,7 @@ mod support;
 
 use support::{columns, model, run};
 
-/// Forces of the contact at the end of a deck, and the largest iterations of an increment.
+/// Force of the contact at the end of a deck.
 fn forces(deck: &str) -> [f64; 3] {
     let model = model(deck, &[]);
     let table = columns(&model, &run(&model));
@@ -57,13 +57,12 @@ fn a_column_stands_on_the_edge_of_a_block() {
 /// The corner of a post pushes against the end of a beam.
 #[test]
 fn a_corner_meets_an_end() {
-    let plane = |cell: &str, height: f64, [surface, target]: [&str; 2]| {
+    let deck = |space: &str, meshes: &str, [surface, target]: [&str; 2], steps: &str| {
         format!(
             r#"
 version = 1
-space = "plane-strain"
-mesh.part.beam.rectangle = {{ from = [0.0, 0.0], to = [40.0, 2.0], cells = [40, 2], cell = "{cell}" }}
-mesh.part.post.rectangle = {{ from = [40.5, -7.0], to = [48.1, {height}], cells = [5, 6], cell = "{cell}" }}
+space = "{space}"
+{meshes}
 material.m.elastic = {{ young = 2000.0, poisson = 0.35 }}
 body.beam.material = "m"
 body.post.material = "m"
@@ -71,10 +70,22 @@ group.beamtip = {{ of = "beam.bottom", with = ["beam.right"] }}
 group.posttip = {{ of = "post.top", with = ["post.left"] }}
 contact.c = {{ surface = "{surface}", target = "{target}", law.coulomb.friction = 0.3 }}
 [[step]]
-displacement."beam.left" = {{ x = 0.0, y = 0.0 }}
-displacement."post.bottom" = {{ x = -0.6, y = 0.0 }}
+{steps}
 "#
         )
+    };
+    let plane = |cell: &str, height: f64, sides: [&str; 2]| {
+        let meshes = format!(
+            r#"
+mesh.part.beam.rectangle = {{ from = [0.0, 0.0], to = [40.0, 2.0], cells = [40, 2], cell = "{cell}" }}
+mesh.part.post.rectangle = {{ from = [40.5, -7.0], to = [48.1, {height}], cells = [5, 6], cell = "{cell}" }}
+"#
+        );
+        let steps = r#"
+displacement."beam.left" = { x = 0.0, y = 0.0 }
+displacement."post.bottom" = { x = -0.6, y = 0.0 }
+"#;
+        deck("plane-strain", &meshes, sides, steps)
     };
     for cell in ["quad4", "quad8", "tri6"] {
         for height in [0.4, 0.8, 1.543] {
@@ -83,24 +94,18 @@ displacement."post.bottom" = {{ x = -0.6, y = 0.0 }}
             assert!(alone < -5.0 && (force / alone - 1.0).abs() < 0.12, "{cell} {height}: {force} {alone}");
         }
     }
-    let space = |cell: &str, [surface, target]: [&str; 2]| {
-        format!(
+    let space = |cell: &str, sides: [&str; 2]| {
+        let meshes = format!(
             r#"
-version = 1
-space = "solid"
 mesh.part.beam.box = {{ from = [0.0, 0.0, 0.0], to = [40.0, 2.0, 4.0], cells = [20, 2, 2], cell = "{cell}" }}
 mesh.part.post.box = {{ from = [40.5, -6.0, -1.0], to = [44.5, 0.4, 5.0], cells = [3, 5, 4], cell = "{cell}" }}
-material.m.elastic = {{ young = 2000.0, poisson = 0.35 }}
-body.beam.material = "m"
-body.post.material = "m"
-group.beamtip = {{ of = "beam.bottom", with = ["beam.right"] }}
-group.posttip = {{ of = "post.top", with = ["post.left"] }}
-contact.c = {{ surface = "{surface}", target = "{target}", law.coulomb.friction = 0.3 }}
-[[step]]
-displacement."beam.left" = {{ x = 0.0, y = 0.0, z = 0.0 }}
-displacement."post.right" = {{ x = -0.6, y = 0.0, z = 0.0 }}
 "#
-        )
+        );
+        let steps = r#"
+displacement."beam.left" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."post.right" = { x = -0.6, y = 0.0, z = 0.0 }
+"#;
+        deck("solid", &meshes, sides, steps)
     };
     for cell in ["hex8", "tet10"] {
         let [alone, ..] = forces(&space(cell, ["beam.right", "post.left"]));

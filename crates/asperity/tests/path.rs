@@ -67,7 +67,7 @@ impl Attempt for Open {
             local.tangent.copy_from_slice(&[slope + k, -k, -k, k]);
         }
         let depth = |z: f64| (RISE * RISE * z * z / 2.0 - z.powi(4) / 4.0) / (1.0 + RISE * RISE).powf(1.5);
-        local.stored = depth(RISE) - depth(RISE - apex) + 0.5 * k * (end - apex).powi(2);
+        local.energies.stored = depth(RISE) - depth(RISE - apex) + 0.5 * k * (end - apex).powi(2);
         Ok(0)
     }
 }

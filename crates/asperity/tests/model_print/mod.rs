@@ -117,7 +117,7 @@ fn evaluate(
         let mut new = attempt.scratch(i);
         print.add(attempt.evaluate(i, stencil, &mut new, &mut local));
         print.add(stencils.dofs(stencil));
-        let energies = [local.stored, local.dissipated];
+        let energies = [local.energies.stored, local.energies.dissipated];
         [&local.force[..], &local.tangent, &new, &energies].iter().for_each(|values| print.bits(values));
         if history.slot(i).len() == new.len() {
             history.slot_mut(i).copy_from_slice(&new);

@@ -21,19 +21,19 @@ pub(in crate::contact) fn account(
 ) {
     let (now, slipped, closure) = now.map_or(([0.0; 3], 0.0, 0.0), |now| (now.stress, now.slipped, now.closure));
     let ([pressure, s, t], [s_before, t_before]) = (now, [old[entry::SHEAR], old[entry::SHEAR2]]);
-    local.stored = area * (law.stored(pressure, past.penalty) - 0.5 * pressure * multiplied);
+    local.energies.stored = area * (law.stored(pressure, past.penalty) - 0.5 * pressure * multiplied);
     let mean = [0.5 * (s_before + s), 0.5 * (t_before + t)];
     let (shear, before) = (s.hypot(t), s_before.hypot(t_before));
     let steady = if options.augmentation.is_some() {
         if shear > 0.0 { (mean[0] * s + mean[1] * t) / shear * slipped } else { 0.0 }
     } else {
         let stored = |shear: f64| 0.5 * shear * shear / past.tangential_penalty;
-        local.stored += area * stored(shear);
+        local.energies.stored += area * stored(shear);
         mean[0] * slip[0] + mean[1] * slip[1] - (stored(shear) - stored(before))
     };
     let from = if old[entry::STATUS] == f64::from(Status::Stick as u8) { shear } else { before };
     let friction = steady.max(0.5 * (from + shear) * slipped);
     let pressure = 0.5 * (old[entry::PRESSURE] + pressure);
-    local.supplied = area * (pressure * options.overlap.removed(old, at) + friction - steady);
-    local.dissipated = area * (friction + pressure * closure);
+    local.energies.supplied = area * (pressure * options.overlap.removed(old, at) + friction - steady);
+    local.energies.dissipated = area * (friction + pressure * closure);
 }

@@ -189,9 +189,9 @@ pub trait Interface: Send + Sync {
     }
     /// As [`InterfaceLaw::keeps`].
     fn keeps(&self, past: &Past) -> f64;
-    /// Whether a bond holds that a tension breaks.
-    fn is_bonded(&self, past: &Past) -> bool {
-        self.touch(past) < self.stays(past.vars)
+    /// The tensile strength of the bond that holds; zero without one.
+    fn tensile_strength(&self, past: &Past) -> f64 {
+        past.penalty * (self.stays(past.vars) - self.touch(past))
     }
     /// As [`InterfaceLaw::opens`] of a point that was in contact; as [`InterfaceLaw::touch`] of another.
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64;

@@ -67,12 +67,12 @@ impl Attempt for OpenSprings<'_> {
             self.stiffness.iter().zip(self.history.slot(index)).zip(local.u.iter().zip(before))
         {
             // Who makes a stretched spring stiffer or softer does work on it, which that of its forces at both ends of the increment has not.
-            local.supplied += 0.5 * (k - had) * before * u;
+            local.energies.supplied += 0.5 * (k - had) * before * u;
         }
         new.copy_from_slice(&self.stiffness);
         for (i, (&k, &u)) in self.stiffness.iter().zip(&local.u).enumerate() {
             local.force[i] = k * u;
-            local.stored += 0.5 * k * u * u;
+            local.energies.stored += 0.5 * k * u * u;
             if local.wants_tangent {
                 local.tangent[i * n + i] = k;
             }

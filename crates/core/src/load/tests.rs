@@ -250,7 +250,7 @@ fn springs_pull_back_store_energy_and_have_their_stiffness_as_tangent() {
     let (state, history) = (State { u: u.clone(), ..State::default() }, springs.initial());
     let attempt = springs.attempt(&state, &history, Instant::default()).unwrap();
     let mut stored = 0.0;
-    each_stencil(attempt.as_ref(), &u, &mut |_, local| stored += local.stored);
+    each_stencil(attempt.as_ref(), &u, &mut |_, local| stored += local.energies.stored);
     let expected: f64 = [6, 7, 10, 11].iter().map(|&i| 0.5 * if i % 2 == 0 { 2.0 } else { 7.0 } * u[i] * u[i]).sum();
     assert!((stored - expected).abs() < 1e-15);
 }

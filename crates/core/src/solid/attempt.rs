@@ -227,10 +227,10 @@ impl OpenBody<'_> {
                 new[len - 1] = stretch;
                 let (free, material) = (sums.law.free.ln(), &self.body.material);
                 let mean = |value: &dyn Fn(&[f64]) -> f64| 0.5 * (value(old) + value(new) * det) * volume;
-                local.supplied += mean(&|state| trace(state)) * (free + sums.law.cooling);
+                local.energies.supplied += mean(&|state| trace(state)) * (free + sums.law.cooling);
                 if material.has_potential() {
                     // The energy is that of a volume free of stress, which heat makes larger.
-                    local.supplied -= 3.0 * mean(&|state| material.stored_energy(state)) * free;
+                    local.energies.supplied -= 3.0 * mean(&|state| material.stored_energy(state)) * free;
                 }
             }
         }
@@ -256,10 +256,10 @@ impl OpenBody<'_> {
     fn account(&self, (old, new): (&[f64], &[f64]), (volume, det): (f64, f64), local: &mut Local) {
         let material = &self.body.material;
         let stored = material.stored_energy(new);
-        local.stored += stored * det * volume;
-        local.dissipated += material.dissipation(old, new) * det * volume;
+        local.energies.stored += stored * det * volume;
+        local.energies.dissipated += material.dissipation(old, new) * det * volume;
         if !material.has_potential() {
-            local.residue += 0.5 * (material.stored_energy(old) + stored) * (1.0 - det) * volume;
+            local.energies.residue += 0.5 * (material.stored_energy(old) + stored) * (1.0 - det) * volume;
         }
     }
 }

@@ -346,7 +346,7 @@ impl Term for Body {
         let mut stored = 0.0;
         attempt.each(&start.u, &mut |dofs, local| {
             dofs.iter().zip(&local.force).for_each(|(&dof, force)| forces[dof] += force);
-            stored += local.stored;
+            stored += local.energies.stored;
         })?;
         Ok(stored)
     }

@@ -491,8 +491,7 @@ impl<'a> Newton<'a> {
     pub(super) fn derivative_at(mut self, u: &[f64]) -> Result<Evaluation, Failure> {
         let trial = Trial::at(u, self.tangent());
         self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
-        self.stop(u, true);
-        self.resist(u, true);
+        self.add_to_terms(u, true);
         Ok(self.evaluation)
     }
 
@@ -504,12 +503,17 @@ impl<'a> Newton<'a> {
         let evaluated = self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation);
         self.memory.spent.evaluating += begun.elapsed();
         evaluated?;
+        self.add_to_terms(u, self.linearised);
+        Ok(())
+    }
+
+    /// Adds to forces and matrix of the terms what acts beside these, and finds the unbalanced forces.
+    fn add_to_terms(&mut self, u: &[f64], linearised: bool) {
         self.let_go();
-        self.stop(u, tangent != Tangent::None);
+        self.stop(u, linearised);
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         self.step.constraints.gather(&unbalanced, &mut self.residual);
-        self.resist(u, tangent != Tangent::None);
-        Ok(())
+        self.resist(u, linearised);
     }
 
     /// Adds what is left of the forces that held before the step, and goes with its time.

@@ -214,8 +214,8 @@ impl<'a> Run<'a> {
                             sprung: converged.reached.as_mut().and_then(|reached| reached.sprung.take()),
                         };
                         record.turn = self.stability.look(&mut self.state, look);
-                        if record.turn.is_some() && step.arc_length.is_none() {
-                            record.turn = self.look_again(&record, &converged.u, before.clone());
+                        if let Some(turn) = record.turn.take_if(|_| step.arc_length.is_none()) {
+                            record.turn = self.look_again(turn, (&record, &converged.u), before.clone());
                         }
                         let crosses = |turn: &Turn| turn.crosses(&self.state, (&converged.u, dt), self.problem.size);
                         if may_return && record.turn.as_ref().is_some_and(crosses) {
@@ -304,17 +304,16 @@ impl<'a> Run<'a> {
     /// unknowns: the matrix of a first iteration turns with stresses of the accepted state, which do not balance the loads that act now.
     fn look_again(
         &mut self,
-        record: &AttemptRecord,
-        u: &[f64],
+        turn: Turn,
+        (record, u): (&AttemptRecord, &[f64]),
         before: (Option<Signs>, Option<Softest>),
     ) -> Option<Turn> {
-        let last = self.stability.forget_last();
-        (self.state.signs, self.state.softest) = before;
         let newton = Newton::open(self.problem, &self.state, record.dt, &mut self.memory, &mut self.system);
         let Ok(evaluation) = newton.and_then(|newton| newton.derivative_at(u)) else {
-            self.stability.turns.extend(last.clone());
-            return last;
+            return Some(turn);
         };
+        self.stability.forget_last();
+        (self.state.signs, self.state.softest) = before;
         let look = Look {
             problem: self.problem,
             record,

@@ -137,8 +137,8 @@ impl Stability {
     }
 
     /// Forgets the turn that was found last: its increment is not accepted, or it is looked at again.
-    pub(super) fn forget_last(&mut self) -> Option<Turn> {
-        self.turns.pop()
+    pub(super) fn forget_last(&mut self) {
+        self.turns.pop();
     }
 
     /// Improves the softest mode by the old factor; whether its quotient has not the sign that the last pivots said.

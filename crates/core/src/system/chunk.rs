@@ -140,8 +140,7 @@ impl Chunk {
         }
         self.branches.push((branch, stencil.choice));
         self.forces.extend_from_slice(&local.force);
-        let Local { stored, dissipated, supplied, residue, across, bonds, .. } = *local;
-        self.energies += Energies { stored, dissipated, supplied, residue, across, bonds };
+        self.energies += local.energies;
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! What equilibrium is a sum of.
 
-use super::{Answer, Coordinates, Couplings, History, Kinks, Shares, State};
+use super::{Answer, Coordinates, Couplings, Energies, History, Kinks, Shares, State};
 use crate::Failure;
 
 /// Whether a term resists (a body, a contact, a spring) or acts from outside (a load).
@@ -110,18 +110,8 @@ pub struct Local {
     pub origin: Origin,
     /// and the stencil's unknowns there.
     pub from: Vec<f64>,
-    /// Energy stored in the stencil at the trial state.
-    pub stored: f64,
-    /// Energy dissipated over the increment.
-    pub dissipated: f64,
-    /// Energy that heat supplied over the increment.
-    pub supplied: f64,
-    /// Work over the increment that a rate law neither stores nor dissipates.
-    pub residue: f64,
-    /// What the work of supports and loads by its trapezoid has too much where nothing bears on a part of the way.
-    pub across: f64,
-    /// Part of what is dissipated that bonds had which break.
-    pub bonds: f64,
+    /// Energy stored in the stencil at the trial state, and what it took up over the increment.
+    pub energies: Energies,
 }
 
 impl Default for Local {
@@ -134,12 +124,7 @@ impl Default for Local {
             acting: None,
             origin: Origin::Unknown,
             from: Vec::new(),
-            stored: 0.0,
-            dissipated: 0.0,
-            supplied: 0.0,
-            residue: 0.0,
-            across: 0.0,
-            bonds: 0.0,
+            energies: Energies::default(),
         }
     }
 }
@@ -153,8 +138,7 @@ impl Local {
             self.tangent.clear();
             self.tangent.resize(len * len, 0.0);
         }
-        (self.stored, self.dissipated, self.supplied) = (0.0, 0.0, 0.0);
-        (self.residue, self.across, self.bonds) = (0.0, 0.0, 0.0);
+        self.energies = Energies::default();
     }
 }
 

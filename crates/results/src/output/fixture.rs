@@ -86,7 +86,7 @@ impl Fixture {
             local.u = own.iter().map(|&dof| u[dof]).collect();
             attempt.evaluate(i, stencil, state.histories[0].slot_mut(i), &mut local).unwrap();
             own.iter().zip(&local.force).for_each(|(&dof, force)| state.internal[dof] += force);
-            state.energies[0].stored += local.stored;
+            state.energies[0].stored += local.energies.stored;
         }
         State { increment: before.increment + 1, time: instant.time, u, ..state }
     }

@@ -245,14 +245,13 @@ impl FieldAttempt<'_> {
     /// How much deeper an open node must lie for the law to answer as for a closed one, where it is held: by its bond, or by the first guess if
     /// it was closed, and its pressure, carried on as the unknowns are, still presses.
     fn lift(&self, slot: usize, past: &Past, y: [f64; COUNT]) -> f64 {
-        let (old, bonded) = (self.history.slot(slot), self.bonds[slot]);
-        let pressure = old[entry::PRESSURE] + self.part * (old[entry::PRESSURE] - old[entry::PRESSURE_BEFORE]);
-        let guessed = self.hold.load(Ordering::Relaxed) && old[entry::STATUS] > 0.0 && pressure > 0.0;
-        let y0 = y[0] - self.contact.least;
-        if bonded {
+        let (old, y0) = (self.history.slot(slot), y[0] - self.contact.least);
+        if self.bonds[slot] {
             return (self.law.keeps(past) - y0).max(0.0);
         }
-        if !guessed || y0 > self.law.opens(past, [y[1], y[2]]) {
+        let pressure = old[entry::PRESSURE] + self.part * (old[entry::PRESSURE] - old[entry::PRESSURE_BEFORE]);
+        let held = self.hold.load(Ordering::Relaxed) && old[entry::STATUS] > 0.0 && pressure > 0.0;
+        if !held || y0 > self.law.opens(past, [y[1], y[2]]) {
             return 0.0;
         }
         self.held.store(true, Ordering::Relaxed);
@@ -320,11 +319,8 @@ impl FieldAttempt<'_> {
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
             leave(&*self.law, old, new);
-            local.across = -across(old, stencil.parted());
-            if old[entry::STATUS] > 0.0 {
-                let past = self.past(slot, old[entry::HALF]);
-                self.break_bond(&past, old[entry::XI] * old[entry::HALF], local);
-            }
+            local.energies.across = -across(old, stencil.parted());
+            self.add_fracture(slot, [old[entry::XI] * old[entry::HALF], old[entry::HALF]], local);
             return Ok(0);
         }
         let (stretch, stretching) = stencil.stretch();
@@ -341,10 +337,8 @@ impl FieldAttempt<'_> {
             leave(law, old, new);
             let slid = if old[entry::STATUS] == f64::from(Status::Slip as u8) { slip } else { [0.0; 2] };
             account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, slid), local);
-            local.across = -across(old, -here);
-            if old[entry::STATUS] > 0.0 {
-                self.break_bond(&past, sums.area * stretch, local);
-            }
+            local.energies.across = -across(old, -here);
+            self.add_fracture(slot, [sums.area * stretch, stretch], local);
             return Ok(0);
         }
         self.refuse_leap(slot, (stencil, sums))?;
@@ -396,41 +390,13 @@ impl FieldAttempt<'_> {
         }
         account(terms, (options, self.at), (sums.area * stretch, multiplied), (Some(&response), slip), local);
         new[entry::PENALTY] = self.normal;
-        local.supplied += sums.area * self.supplied(old, new);
+        local.energies.supplied += sums.area * self.supplied(old, new);
         if old[entry::STATUS] == 0.0 {
-            local.across = across(new, self.gap_before(slot));
+            local.energies.across = across(new, self.gap_before(slot));
         }
         let pressure = 0.5 * (old[entry::PRESSURE] + new[entry::PRESSURE]);
-        local.supplied += sums.area * stretch * pressure * (new[entry::NEARER] - old[entry::NEARER]);
+        local.energies.supplied += sums.area * stretch * pressure * (new[entry::NEARER] - old[entry::NEARER]);
         Ok(response.status as Branch)
-    }
-
-    /// Which slots have a brittle bond at the accepted state: one that keeps its shear strength under some tension. Where no increment has been yet, what
-    /// touches has.
-    pub fn bonded(&self) -> Vec<bool> {
-        let strong = |slot: usize| {
-            let past = self.past(slot, 1.0);
-            self.law.is_bonded(&past) && self.law.keeps(&past) < self.law.stays(past.vars)
-        };
-        let closed = |slot: usize| self.history.slot(slot)[entry::STATUS] > 0.0;
-        let mut bonds: Vec<bool> = (0..self.contact.slots()).map(|slot| closed(slot) && strong(slot)).collect();
-        let new: Vec<usize> = (0..self.contact.slots()).filter(|slot| !closed(*slot) && strong(*slot)).collect();
-        if !new.is_empty() {
-            let found = self.search(self.accepted);
-            let (dofs, mut sums) = (&self.contact.parts.dofs, NodeSums::default());
-            for slot in new {
-                let nodes = found.supports[slot].nodes.iter();
-                let mut u: Vec<f64> =
-                    nodes.flat_map(|&node| dofs.displacements(node).map(|dof| self.accepted[dof])).collect();
-                if let FieldTarget::Tool(rigid) = &self.contact.parts.target {
-                    u.extend(rigid.unknowns().map(|dof| self.accepted[dof]));
-                }
-                let stencil = self.stencil(&found, slot, &u);
-                let touch = self.law.touch(&self.past(slot, 1.0)) + self.contact.least;
-                bonds[slot] = self.sum(&stencil, false, &mut sums).is_some() && sums.y[0] + self.closure(slot) > touch;
-            }
-        }
-        bonds
     }
 
     /// The answer of a closed node, carried on along its tangent to a penetration that is less by `lift`; a bond keeps its shear strength.
@@ -442,12 +408,12 @@ impl FieldAttempt<'_> {
         answer
     }
 
-    /// Takes up the energy that a bond over an area has at its tensile strength, and which is lost as it breaks.
-    fn break_bond(&self, past: &Past, area: f64, local: &mut Local) {
-        if self.law.is_bonded(past) {
-            let strength = past.penalty * (self.law.touch(past) - self.law.stays(past.vars));
-            local.bonds = area * self.law.stored(strength, past.penalty);
-            local.dissipated += local.bonds;
+    /// Takes up the fracture energy of the bond of a node that opens: what it stores at its tensile strength over its present `area`.
+    fn add_fracture(&self, slot: usize, [area, stretch]: [f64; 2], local: &mut Local) {
+        if self.history.slot(slot)[entry::STATUS] > 0.0 {
+            let past = self.past(slot, stretch);
+            let fracture = area * self.law.stored(self.law.tensile_strength(&past), past.penalty);
+            (local.energies.bonds, local.energies.dissipated) = (fracture, local.energies.dissipated + fracture);
         }
     }
 
@@ -764,7 +730,7 @@ impl FieldAttempt<'_> {
             let closes = self.history.slot(slot)[entry::STATUS] == 0.0 && new.slot(slot)[entry::STATUS] > 0.0;
             let patches = found.supports[slot].patches.iter().filter(|_| closes);
             let mut patches = patches.map(|&(number, _)| &found.patches[number]);
-            if patches.any(|found| self.contact.comes_out(found, &self.before, self.history)) {
+            if patches.any(|found| self.contact.comes_out(found, (&self.before, self.history))) {
                 let reason = format!("{} came out through another side of the body", self.contact.name_of(slot));
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
@@ -787,7 +753,7 @@ impl FieldAttempt<'_> {
             let held = self.extended(slot, self.answer_of((slot, &past), &[here + lift, s, t, 0.0])?, lift).stress;
             let own = self.answer_of((slot, &past), &[here, s, t, 0.0])?.stress;
             let open = here - self.contact.least <= self.law.opens(&past, [s, t]);
-            let strength = past.penalty * (self.law.stays(past.vars) - self.law.touch(&past));
+            let strength = self.law.tensile_strength(&past);
             let [sheared, shear] = [held, own].map(|stress| stress[1].hypot(stress[2]));
             let beyond = if open { -held[0] - strength } else { sheared - shear };
             Ok::<_, Failure>(if beyond > ROUNDED * strength { beyond } else { 0.0 })

@@ -38,7 +38,7 @@ impl FieldContact {
         let whole = || boundary.get_or_init(|| self.boundary.in_place(self.site(), before.1));
         for (number, &most) in depths.iter().enumerate() {
             for seen in now.patches(number, reach, &mut near) {
-                if history.is_some_and(|history| self.is_beside(&seen, before.0, history)) {
+                if history.is_some_and(|history| self.is_beside(&seen, (before.0, history))) {
                     continue;
                 }
                 let depth = self.depth_at(&seen, most, (before.0, &whole));
@@ -141,15 +141,15 @@ impl FieldContact {
 
     /// Whether a patch lies behind a face of a body beside whose border it came there. What has entered one side of a body near an edge by a hair lies
     /// behind the other side as deep as it is away from that, and is no business of it.
-    fn is_beside(&self, seen: &SeenPart, before: &Configuration, history: &History) -> bool {
+    fn is_beside(&self, seen: &SeenPart, accepted: (&Configuration, &History)) -> bool {
         let deep = BEHIND * self.parts.surface.size(seen.patch.face, &self.parts.mesh);
-        -seen.middle > deep && self.lay_beside((&seen.patch, seen.place), deep, (before, history))
+        -seen.middle > deep && self.lay_beside((&seen.patch, seen.place), deep, accepted)
     }
 
     /// Whether a place of a patch that has closed was beside the border of its face so, and has come out through it.
-    pub(super) fn comes_out(&self, found: &FoundPatch, before: &Configuration, history: &History) -> bool {
+    pub(super) fn comes_out(&self, found: &FoundPatch, accepted: (&Configuration, &History)) -> bool {
         let deep = OUT * self.parts.surface.size(found.patch.face, &self.parts.mesh);
-        self.lay_beside((&found.patch, found.place), deep, (before, history))
+        self.lay_beside((&found.patch, found.place), deep, accepted)
     }
 
     /// Whether a place of a patch was deeper than this behind its face at the accepted state, bore nothing, and was outside of the body past the border of the
@@ -181,15 +181,12 @@ impl FieldContact {
         if hit.gap >= -deep {
             return false;
         }
-        // Before the first increment bodies may be meant to lie in each other.
-        let begun = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::XI] > 0.0);
-        let most = if begun { lay } else { SHALLOW * lay };
         let mut near = Vec::new();
-        target.near(&BoundingBox::of([ray.x]), most, &mut near);
+        target.near(&BoundingBox::of([ray.x]), lay, &mut near);
         near.iter().filter(|&&face| self.piece_of(face) != piece && self.may_touch(patch.face, face)).any(|&face| {
             let n = -faces.surface.middle_normal(&faces.surface.faces[face], target.placed(face));
             let out = target.project(face, &FaceRay { x: ray.x, n });
-            out.is_some_and(|hit| target.holds(face, hit.s, PAST) && hit.gap.abs() < most)
+            out.is_some_and(|hit| target.holds(face, hit.s, PAST) && hit.gap.abs() < lay)
         })
     }
 
@@ -236,10 +233,9 @@ impl FieldContact {
 const THROUGH: f64 = 1.8;
 /// Depth over the size of a face from which on it is asked through which piece of a body a place came to lie behind a face,
 const BEHIND: f64 = 0.02;
-/// from which on it does not come out there in one increment,
+/// and from which on it does not come out there in one increment.
 const OUT: f64 = 0.1;
-/// how much nearer another must be at the beginning of a run, and how far past its edges, in reference coordinates, that is asked for.
-const SHALLOW: f64 = 0.2;
+/// How far past the edges of a face, in reference coordinates, it counts as one that is near.
 const PAST: f64 = 0.1;
 /// Part of the largest admissible depth from which on a patch of a surface that touches itself is asked for its own.
 const DEEP: f64 = 0.25;

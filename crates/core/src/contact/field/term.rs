@@ -6,7 +6,7 @@ use super::contact::FieldContact;
 use crate::Failure;
 use crate::contact::Overlap;
 use crate::contact::increment::reach;
-use crate::contact::record::entry;
+use crate::contact::record::{entry, past};
 use crate::interface::Interface;
 use crate::system::{Attempt, History, Instant, State, Term};
 use std::sync::atomic::AtomicBool;
@@ -65,6 +65,19 @@ impl FieldContact {
         (0..self.slots()).map(|slot| saw(slot) && shares[slot] < LITTLE * most[slot]).collect()
     }
 
+    /// Which slots have a brittle bond after an accepted history, one that keeps its shear strength under some tension: what is closed, and before the first
+    /// increment what touches.
+    fn bonds(&self, law: &dyn Interface, history: &History, normal: f64) -> Vec<bool> {
+        let bonded = |slot: usize| {
+            let old = history.slot(slot);
+            let past = past(old, [normal; 2], 0.0);
+            let touches = || old[entry::SEGMENT] >= 0.0 && past.penetration > law.touch(&past) + self.least;
+            let brittle = law.tensile_strength(&past) > 0.0 && law.keeps(&past) < law.stays(past.vars);
+            brittle && (old[entry::STATUS] > 0.0 || touches())
+        };
+        (0..self.slots()).map(bonded).collect()
+    }
+
     /// The tangential penalties of an attempt after an accepted history: a node that is about to slide under its pressure has
     /// slipped elastically by the stated part of its faces, and one under less than the mean pressure as under that. A stiffer
     /// interface resolves nothing that the mesh shows, and has nodes change between stick and slip with every small motion.
@@ -120,7 +133,7 @@ impl Term for FieldContact {
         let law = self.parts.law.at(at.step, at.step_time)?;
         let normal = self.kept_penalty(history);
         let (far, depths) = (reach(self.longest, &accepted.last_change), self.depths(&accepted.u));
-        let mut attempt = FieldAttempt {
+        Ok(Box::new(FieldAttempt {
             contact: self,
             history,
             accepted: &accepted.u,
@@ -136,21 +149,19 @@ impl Term for FieldContact {
             before_augmented: f64::INFINITY,
             at,
             tangential: self.tangential_penalties(&*law, history, normal),
+            bonds: self.bonds(&*law, history, normal),
             normal,
             stiffened: false,
             law,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
-            bonds: Vec::new(),
             idle: self.idle(history),
             bore: (0..self.slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0),
             far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
             hold: AtomicBool::default(),
             held: AtomicBool::default(),
-        };
-        attempt.bonds = attempt.bonded();
-        Ok(Box::new(attempt))
+        }))
     }
 
     fn name_of(&self, slot: usize) -> String {

@@ -144,9 +144,7 @@ impl Attempt for LedAttempt<'_> {
             own.reset(count);
             let branch = self.attempt.evaluate(index, &Stencil { len: count, ..*stencil }, new, &mut own)?;
             map.pull(self.following, (&own, &rates), local);
-            (local.stored, local.dissipated) = (own.stored, own.dissipated);
-            (local.supplied, local.residue) = (own.supplied, own.residue);
-            (local.across, local.bonds) = (own.across, own.bonds);
+            local.energies = own.energies;
             Ok(branch)
         })
     }

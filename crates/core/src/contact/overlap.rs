@@ -2,7 +2,7 @@
 //! little, and wear.
 //!
 //! A point that penetrates by `g_0` before the first increment, or where its contact is added, may be pressed apart over the time `T`
-//! of that step: the law sees `u - (1 - t / T) g_0`. A surface that wears recedes by Archard's depth, the coefficient times the sum of pressure
+//! of that step: the law sees `u - (1 - t / T) g_0`; where surfaces fit it never is, as if `T` were infinite. A surface that wears recedes by Archard's depth, the coefficient times the sum of pressure
 //! times sliding up to the last accepted state: `u - k sum p ds` (Archard, J. Appl. Phys. 24, 1953). The law itself adds that of the increment.
 
 use super::record::entry;
@@ -27,6 +27,7 @@ impl Overlap {
             // It presses from the next increment on, whose work it then is.
             (Self::Keep, added) => [added.map_or(0.0, |[since, _]| since); 2],
             (Self::Ramp(time), None) => [0.0, *time],
+            (Self::Fit, _) => FOR_GOOD,
             (_, added) => added.unwrap_or_default(),
         };
         let overlap = values[entry::PENETRATION] + values[entry::NEARER];
@@ -37,11 +38,20 @@ impl Overlap {
         }
     }
 
+    /// Takes the overlap of a point, negative for a gap, with how much nearer the target lies than in the mean, as none for good.
+    pub fn fit(values: &mut [f64]) {
+        values[entry::OVERLAP] = values[entry::PENETRATION] + values[entry::NEARER];
+        values[entry::CLOSURE] = -values[entry::PENETRATION];
+        [values[entry::SINCE], values[entry::UNTIL]] = FOR_GOOD;
+    }
+
+    /// Whether what stands between a point and its target counts as none for good.
+    pub fn fits(values: &[f64]) -> bool {
+        values[entry::UNTIL] == f64::INFINITY
+    }
+
     /// The part of a point's overlap that is removed at the beginning and at the end of an increment.
     pub fn settled(&self, old: &[f64], at: Instant) -> [f64; 2] {
-        if *self == Self::Fit {
-            return [0.0; 2];
-        }
         let [since, until] = [old[entry::SINCE], old[entry::UNTIL]];
         [at.time - at.dt, at.time].map(|t| match until > since {
             true => ((t - since) / (until - since)).clamp(0.0, 1.0),
@@ -61,6 +71,9 @@ impl Overlap {
         (after - before) * old[entry::OVERLAP]
     }
 }
+
+/// When an overlap is removed that never is.
+const FOR_GOOD: [f64; 2] = [0.0, f64::INFINITY];
 
 #[cfg(test)]
 mod tests {

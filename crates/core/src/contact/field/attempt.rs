@@ -325,6 +325,7 @@ impl FieldAttempt<'_> {
         }
         let (stretch, stretching) = stencil.stretch();
         let (past, law) = (self.past(slot, stretch), &*self.law);
+        let areas = [old[entry::XI] * old[entry::HALF], sums.area * stretch];
         let (options, multiplied, terms) = (&contact.parts.options, self.shift(slot)[0], (law, &past, old));
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
@@ -336,7 +337,7 @@ impl FieldAttempt<'_> {
         if self.idle[slot] || seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
             let slid = if old[entry::STATUS] == f64::from(Status::Slip as u8) { slip } else { [0.0; 2] };
-            account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, slid), local);
+            account(terms, (options, self.at), (areas, multiplied), (None, slid), local);
             local.energies.across = -across(old, -here);
             self.add_fracture(slot, [sums.area * stretch, stretch], local);
             return Ok(0);
@@ -388,7 +389,7 @@ impl FieldAttempt<'_> {
             let y = [here, sums.y[1], sums.y[2]];
             self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.at.u, y, stretch, sums);
         }
-        account(terms, (options, self.at), (sums.area * stretch, multiplied), (Some(&response), slip), local);
+        account(terms, (options, self.at), (areas, multiplied), (Some(&response), slip), local);
         new[entry::PENALTY] = self.normal;
         local.energies.supplied += sums.area * self.supplied(old, new);
         if old[entry::STATUS] == 0.0 {
@@ -429,6 +430,10 @@ impl FieldAttempt<'_> {
         let least = self.contact.least;
         let most = nearer.most.min(y[0] - self.law.opens(past, [y[1], y[2]]) - least);
         if nearer.most <= least || most <= 0.0 {
+            return Ok(0.0);
+        }
+        // A bond under tension flattens nothing.
+        if answer(&*self.law, past, least, y)?.stress[0] <= 0.0 {
             return Ok(0.0);
         }
         let failure = RefCell::new(None);

@@ -29,8 +29,7 @@ impl FieldContact {
     /// Largest shares of dual functions at each node after an accepted history: less where the surface bends, and of those of second degree
     /// where friction pushes an edge in.
     pub(super) fn dual_limits(&self, placed: &[PlacedFace], history: &History) -> Vec<[f64; 2]> {
-        let (surface, law, [mut sliding, mut shear, mut pressure]) =
-            (&self.parts.surface, self.parts.law.first(), [0.0; 3]);
+        let (law, [mut sliding, mut shear, mut pressure]) = (self.parts.law.first(), [0.0; 3]);
         // It does not rise again while anything touches, or it went to and fro from increment to increment.
         let mut at_rest = 1.0_f64;
         for slot in (0..self.nodal_slots()).map(|slot| history.slot(slot)).filter(|slot| slot[entry::STATUS] > 0.0) {
@@ -43,14 +42,23 @@ impl FieldContact {
             let smooth = fade(sliding / pressure, STEEP);
             at_rest = at_rest.min(smooth + (1.0 - smooth) * fade(shear / sliding, SLIDING));
         }
+        self.unbent(placed).map(|unbent| [unbent, at_rest]).collect()
+    }
+
+    /// The same before any history.
+    pub(super) fn first_limits(&self, placed: &[PlacedFace]) -> Vec<[f64; 2]> {
+        self.unbent(placed).map(|unbent| [unbent, 1.0]).collect()
+    }
+
+    /// Of these how far the surface does not bend at each node.
+    fn unbent(&self, placed: &[PlacedFace]) -> impl Iterator<Item = f64> {
+        let surface = &self.parts.surface;
         let normals: Vec<Vec3> =
             surface.faces.iter().zip(placed).map(|(face, placed)| surface.middle_normal(face, placed)).collect();
-        let limits = |node: &FieldNode| {
+        surface.nodes.iter().map(move |node: &FieldNode| {
             let pairs = node.support.iter().flat_map(|&(f, _)| node.support.iter().map(move |&(g, _)| (f, g)));
-            let bend = pairs.map(|(f, g)| normals[f].cross(normals[g]).norm()).fold(0.0, f64::max);
-            [fade(bend, BENT), at_rest]
-        };
-        surface.nodes.iter().map(limits).collect()
+            fade(pairs.map(|(f, g)| normals[f].cross(normals[g]).norm()).fold(0.0, f64::max), BENT)
+        })
     }
 
     /// Those by which the stresses of an accepted history were found.

@@ -268,6 +268,9 @@ impl FieldContact {
     /// As a part of that, and in words.
     pub fn facets(&self, u: &[f64], history: &History) -> Option<(f64, String)> {
         self.parts.target.as_faces().filter(|_| self.parts.options.overlap != Overlap::Fit)?;
+        if (0..self.slots()).any(|slot| Overlap::fits(history.slot(slot))) {
+            return None;
+        }
         let overlaps =
             (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
         let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));

@@ -8,6 +8,7 @@ use super::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE};
 use super::stencil::{NodeSums, StencilInPlace};
 use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
+use crate::contact::Overlap;
 use crate::contact::record::entry;
 use crate::system::History;
 use crate::tensor::BoundingBox;
@@ -152,7 +153,7 @@ impl FieldContact {
         self.lay_beside((&found.patch, found.place), deep, accepted)
     }
 
-    /// Whether a place of a patch was deeper than this behind its face at the accepted state, bore nothing, and was outside of the body past the border of the
+    /// Whether a place of a patch was deeper than this behind its face at the accepted state, bore nothing though it does not fit, and was outside of the body past the border of the
     /// smooth piece of that face, or nearer to another piece, on either side of that.
     fn lay_beside(
         &self,
@@ -165,8 +166,8 @@ impl FieldContact {
         };
         let (surface, piece) = (&self.parts.surface, self.piece_of(patch.target));
         let mut corners = 0..surface.faces[patch.face].corners();
-        let slot = |corner: usize| self.slot(surface.field[patch.face][corner], piece);
-        if corners.any(|corner| history.slot(slot(corner))[entry::STATUS] > 0.0) {
+        let values = |corner: usize| history.slot(self.slot(surface.field[patch.face][corner], piece));
+        if corners.any(|corner| values(corner)[entry::STATUS] > 0.0 || Overlap::fits(values(corner))) {
             return false;
         }
         let at = before.face(patch.face).at(place);
@@ -194,7 +195,7 @@ impl FieldContact {
     /// history.
     pub(super) fn supports(&self, u: &[f64], reach: f64, history: Option<&History>) -> FieldSearch {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
-        let duals = history.map_or(Vec::new(), |history| self.known_limits(history));
+        let duals = history.map_or_else(|| self.first_limits(&now.placed), |history| self.known_limits(history));
         let now = Configuration { duals: &duals, ..now };
         let tips = match history {
             Some(history) => now.tips(self.longest, None, self.known_feet(history)),

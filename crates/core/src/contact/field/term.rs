@@ -7,7 +7,7 @@ use crate::Failure;
 use crate::contact::Overlap;
 use crate::contact::increment::reach;
 use crate::contact::record::{entry, past};
-use crate::interface::Interface;
+use crate::interface::{Interface, Past};
 use crate::system::{Attempt, History, Instant, State, Term};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, RwLock};
@@ -31,6 +31,7 @@ impl FieldContact {
             values[entry::SEGMENT] = stencil.segment();
         });
         let near = (reach(self.longest, &still), &self.depths(u)[..]);
+        let penalties = [self.parts.options.penalty; 2];
         let (fits, nearer) = (FITS * self.sagitta(), Configuration::new(self, u).nearer(&history, near));
         for (slot, nearer) in nearer.into_iter().enumerate() {
             let values = history.slot_mut(slot);
@@ -38,12 +39,18 @@ impl FieldContact {
                 continue;
             }
             let gap = -values[entry::PENETRATION];
-            if self.parts.options.overlap == Overlap::Fit && gap > 0.0 && gap <= fits {
-                (values[entry::OVERLAP], values[entry::CLOSURE]) = (-gap, gap);
+            let fits = match self.parts.options.overlap {
+                Overlap::Fit => gap > 0.0 && gap <= fits,
+                // A bond is made between surfaces that fit.
+                Overlap::Ramp(_) => gap.abs() <= fits && is_bond(self.parts.law.first(), &past(values, penalties, 0.0)),
+                Overlap::Keep => false,
+            };
+            values[entry::NEARER] = nearer.most;
+            if fits {
+                Overlap::fit(values);
             } else {
-                values[entry::NEARER] = nearer.most;
+                self.parts.options.overlap.begin(values, self.least, added);
             }
-            self.parts.options.overlap.begin(values, self.least, added);
         }
         history
     }
@@ -65,15 +72,13 @@ impl FieldContact {
         (0..self.slots()).map(|slot| saw(slot) && shares[slot] < LITTLE * most[slot]).collect()
     }
 
-    /// Which slots have a brittle bond after an accepted history, one that keeps its shear strength under some tension: what is closed, and before the first
-    /// increment what touches.
+    /// Which slots have a brittle bond after an accepted history: what is closed, and before the first increment what touches.
     fn bonds(&self, law: &dyn Interface, history: &History, normal: f64) -> Vec<bool> {
         let bonded = |slot: usize| {
             let old = history.slot(slot);
             let past = past(old, [normal; 2], 0.0);
             let touches = || old[entry::SEGMENT] >= 0.0 && past.penetration > law.touch(&past) + self.least;
-            let brittle = law.tensile_strength(&past) > 0.0 && law.keeps(&past) < law.stays(past.vars);
-            brittle && (old[entry::STATUS] > 0.0 || touches())
+            is_bond(law, &past) && (old[entry::STATUS] > 0.0 || touches())
         };
         (0..self.slots()).map(bonded).collect()
     }
@@ -95,6 +100,11 @@ impl FieldContact {
         let least = mean.max(SOFTEST * most);
         (0..self.slots()).map(|slot| stiffness(slot).unwrap_or(0.0).max(least).min(most)).collect()
     }
+}
+
+/// Whether a law has a brittle bond, one that keeps its shear strength under some tension.
+fn is_bond(law: &dyn Interface, past: &Past) -> bool {
+    law.tensile_strength(past) > 0.0 && law.keeps(past) < law.stays(past.vars)
 }
 
 /// Part of the largest share of the nodes of its faces below which that of a node leaves the stress to them.

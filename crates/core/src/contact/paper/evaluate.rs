@@ -106,6 +106,6 @@ impl PaperAttempt<'_> {
     fn account(&self, index: usize, g: &PointGeometry, now: Option<&Linearised>, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         let area = self.present_area(g) * options.loads.share();
-        account((&*self.law, &self.past(index), old), (options, self.at), (area, 0.0), (now, g.slip()), local);
+        account((&*self.law, &self.past(index), old), (options, self.at), ([area; 2], 0.0), (now, g.slip()), local);
     }
 }

@@ -37,7 +37,7 @@ pub enum TargetInPlace<'a> {
 
 impl FieldTarget {
     /// At unknowns `u`.
-    pub fn at(&self, site: (&Mesh, &Dofs), u: &[f64]) -> TargetInPlace<'_> {
+    pub fn at<'a>(&'a self, site: (&'a Mesh, &Dofs), u: &[f64]) -> TargetInPlace<'a> {
         match self {
             Self::Tool(rigid) => TargetInPlace::Tool(rigid.at(u)),
             Self::Faces(faces) => TargetInPlace::Faces(faces.in_place(site, u)),

@@ -1,12 +1,14 @@
 //! Faces of bodies as a target: where rays from the surface meet them, by Newton's method on
 //! `x + gamma n = sum_K N_K(s) x_K`.
 
-use super::face::{PlacedFace, ShapeFunctions};
+use super::face::{FieldFace, PlacedFace, ShapeFunctions};
 use super::surface::FieldSurface;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::{BoundingBox, Vec3};
 use crate::tool::BoxTree;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// Iterations of a projection.
 const ITERATIONS: usize = 20;
@@ -64,11 +66,14 @@ pub struct TargetFaces {
     pub surface: FieldSurface,
     tree: BoxTree,
     size: f64,
+    /// How deep the body behind each side is before any motion.
+    thickness: OnceLock<BTreeMap<Side, f64>>,
 }
 
 /// Target faces at given unknowns.
 pub struct FacesInPlace<'a> {
     faces: &'a TargetFaces,
+    mesh: &'a Mesh,
     placed: Vec<PlacedFace>,
     tree: BoxTree,
 }
@@ -82,7 +87,7 @@ impl TargetFaces {
         let boxes: Vec<BoundingBox> = surface.faces.iter().map(|face| bounds(&face.at_rest(mesh))).collect();
         let size = boxes.iter().fold(BoundingBox::EMPTY, |all, &b| all.union(b)).size();
         let tree = BoxTree::new(&boxes, MARGIN * size);
-        Self { surface, tree, size }
+        Self { surface, tree, size, thickness: OnceLock::new() }
     }
 
     /// Diagonal of the box around them before any motion, a length.
@@ -91,10 +96,51 @@ impl TargetFaces {
     }
 
     /// The faces at unknowns `u`.
-    pub fn in_place(&self, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> FacesInPlace<'_> {
+    pub fn in_place<'a>(&'a self, (mesh, dofs): (&'a Mesh, &Dofs), u: &[f64]) -> FacesInPlace<'a> {
         let placed: Vec<PlacedFace> = self.surface.faces.iter().map(|face| face.placed(mesh, dofs, u)).collect();
         let boxes: Vec<BoundingBox> = placed.iter().map(bounds).collect();
-        FacesInPlace { faces: self, tree: self.tree.refit(&boxes, MARGIN * self.size), placed }
+        FacesInPlace { faces: self, mesh, tree: self.tree.refit(&boxes, MARGIN * self.size), placed }
+    }
+
+    /// How deep the body is behind the middle of a side before any motion, when no part of it lies within another.
+    fn thickness(&self, of: Side, mesh: &Mesh) -> f64 {
+        let all = || {
+            let placed: Vec<PlacedFace> = self.surface.faces.iter().map(|face| face.at_rest(mesh)).collect();
+            let behind = |(number, face): (usize, &FieldFace)| {
+                let shape = face.shape(face.middle());
+                let [a, b] = shape.tangents(placed[number].nodes(), self.surface.plane);
+                let ray = FaceRay { x: shape.value(placed[number].nodes()), n: -a.cross(b).unit() };
+                let mut first = f64::INFINITY;
+                self.meet((&self.tree, &placed), &ray, [LEAST * a.norm(), f64::MAX], |other, hit| {
+                    if self.surface.faces[other].side != face.side && hit.normal().dot(ray.n) > 0.0 {
+                        first = first.min(hit.gap);
+                    }
+                });
+                (face.side, first)
+            };
+            self.surface.faces.iter().enumerate().map(behind).collect()
+        };
+        self.thickness.get_or_init(all).get(&of).copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// Calls `take` with the faces, placed so, that a ray meets within `range`, by their numbers.
+    fn meet(
+        &self,
+        (tree, placed): (&BoxTree, &[PlacedFace]),
+        ray: &FaceRay,
+        range: [f64; 2],
+        mut take: impl FnMut(usize, FaceProjection),
+    ) {
+        let along = crate::tool::ProfileRay { origin: ray.x, direction: ray.n };
+        let mut found = Vec::new();
+        tree.along(&along, range, &mut |number| found.push(number));
+        found.sort_unstable();
+        for number in found {
+            let Some(hit) = self.project(number, &placed[number], ray) else { continue };
+            if self.surface.faces[number].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap) {
+                take(number, hit);
+            }
+        }
     }
 
     /// Where a ray meets face `number`, placed so, or what continues it.
@@ -185,23 +231,19 @@ impl FacesInPlace<'_> {
                 crossings.push(BodyCrossing { u: hit.gap, leaves: hit.normal().dot(ray.n) > 0.0 });
             }
         });
-        end_of_body(crossings)
+        end_of_body(crossings, || SWOLLEN * self.faces.thickness(own, self.mesh))
     }
 
     /// Calls `take` with the faces that a ray meets within `range`, by their numbers.
-    pub fn meet(&self, ray: &FaceRay, range: [f64; 2], mut take: impl FnMut(usize, FaceProjection)) {
-        let along = crate::tool::ProfileRay { origin: ray.x, direction: ray.n };
-        let mut found = Vec::new();
-        self.tree.along(&along, range, &mut |number| found.push(number));
-        found.sort_unstable();
-        for number in found {
-            let Some(hit) = self.project(number, ray) else { continue };
-            if self.holds(number, hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap) {
-                take(number, hit);
-            }
-        }
+    pub fn meet(&self, ray: &FaceRay, range: [f64; 2], take: impl FnMut(usize, FaceProjection)) {
+        self.faces.meet((&self.tree, &self.placed), ray, range, take);
     }
 }
+
+/// Depth of a body behind a side, over that before any motion, up to which it is searched for behind parts that overlap it.
+const SWOLLEN: f64 = 2.0;
+/// Length of a side from which on a ray that begins on it, where it is curved, may leave the body.
+const LEAST: f64 = 1e-3;
 
 /// Where a ray crosses the boundary of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -217,14 +259,20 @@ const TOGETHER: f64 = 1e-9;
 
 /// Where a ray that begins on a body's boundary and goes inward leaves the body. Where the body penetrates itself the ray
 /// begins inside it more than once, or enters another part before it leaves its own: parts that overlap a little are left in the order
-/// in which they were entered, that of the beginning last of those that the ray begins in.
-fn end_of_body(mut crossings: Vec<BodyCrossing>) -> f64 {
+/// in which they were entered, that of the beginning last of those that the ray begins in. Of a face that it grazes a ray may miss one of two
+/// crossings, as if it began in one part more: the end of one that it begins in is not searched for beyond `most`.
+fn end_of_body(mut crossings: Vec<BodyCrossing>, most: impl FnOnce() -> f64) -> f64 {
     crossings.sort_unstable_by(|a, b| a.u.total_cmp(&b.u));
     crossings.dedup_by(|b, a| a.leaves == b.leaves && b.u - a.u <= TOGETHER * b.u);
     let mut leaves = crossings.iter().filter(|crossing| crossing.leaves);
     let entered = crossings.iter().filter(|crossing| !crossing.leaves).count();
     let others = leaves.clone().count().saturating_sub(entered + 1);
-    leaves.nth(others).map_or(f64::INFINITY, |crossing| crossing.u)
+    if others == 0 {
+        return leaves.next().map_or(f64::INFINITY, |crossing| crossing.u);
+    }
+    let most = most();
+    let reached = leaves.take(others + 1).enumerate().filter(|(k, crossing)| *k == 0 || crossing.u <= most);
+    reached.last().map_or(f64::INFINITY, |(_, crossing)| crossing.u)
 }
 
 #[cfg(test)]
@@ -234,7 +282,7 @@ mod tests {
     #[test]
     fn a_body_that_penetrates_itself_does_not_end_at_its_other_part() {
         let crossing = |&u: &f64| BodyCrossing { u: u.abs(), leaves: u > 0.0 };
-        let at = |list: &[f64]| end_of_body(list.iter().map(crossing).collect());
+        let at = |list: &[f64]| end_of_body(list.iter().map(crossing).collect(), || 2.0);
         assert_eq!(at(&[2.0]), 2.0);
         // Out of the other part, then out of its own.
         assert_eq!(at(&[2.0, 0.1]), 2.0);
@@ -247,5 +295,7 @@ mod tests {
         // A wall that another one, and that a third one lies against, each a little within the last.
         assert_eq!(at(&[-0.999, 1.0, -1.998, 2.0, 3.0]), 1.0);
         assert_eq!(at(&[0.001, -0.999, 1.0, 2.0]), 1.0);
+        // Legs of a spring, the last of which it grazes where it enters it.
+        assert_eq!(at(&[1.5, -5.5, 8.8, -13.8, 17.2, -22.1, 25.6, 28.2]), 1.5);
     }
 }

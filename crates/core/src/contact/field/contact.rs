@@ -10,6 +10,7 @@ use crate::contact::{ContactParts, ContactSides};
 use crate::mesh::Mesh;
 use crate::system::{Dofs, History};
 use crate::tool::{self, ProfileTool, Tip};
+use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -66,6 +67,8 @@ pub struct FieldContact {
     pub(super) roles: FieldRoles,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
+    /// Of each piece of a body those that it meets at an edge of that.
+    pub(super) beside: Vec<BTreeSet<usize>>,
     sizes: Vec<f64>,
     /// Undeformed areas of the nodes.
     pub(super) areas: Vec<f64>,
@@ -99,7 +102,8 @@ impl FieldContact {
             }
             FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
         };
-        Self { sides, roles, pieces, sizes, areas }
+        let beside = target.as_faces().map_or(Vec::new(), |faces| faces.surface.pieces_beside(mesh));
+        Self { sides, roles, pieces, beside, sizes, areas }
     }
 
     /// The largest penetration of a closed node in an accepted state.

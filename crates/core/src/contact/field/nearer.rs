@@ -6,6 +6,9 @@
 //! bends it. A node therefore closes when the target touches the part of its faces that is nearer to it than to other nodes: to its
 //! penetration is added by how much the least gap there is less than the mean, so far as the gap is not linear.
 //!
+//! Where an edge of a body touches, at which two of its smooth pieces meet, the gap of each is linear and that of both is not: it is that of
+//! both which is looked at, and what the target touches first of the piece of a slot.
+//!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
 //! the mean gap is nearer to that of the curved surface: around a node of a third row no other has a larger gap, and nothing is added to
 //! it and to those beside it. Nor is it to curved faces of second degree, which follow a round surface by themselves.
@@ -126,7 +129,7 @@ impl Configuration<'_> {
             let range = [-2.0 * depths[number], far + 2.0 * self.contact.longest];
             for (nearest, xi) in places(&face, corner) {
                 let gap = self.gap_at((&face, number), xi, (piece, range));
-                gaps.extend(gap.map(|gap| PlaceGap { nearest, ..gap }));
+                gaps.extend(gap.map(|gap| PlaceGap { nearest: nearest && gap.nearest, ..gap }));
             }
             within += WITHIN * part * beyond_linear(&gaps[begin..]).range;
             let [own, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
@@ -150,7 +153,7 @@ impl Configuration<'_> {
         gaps.reduce(f64::min).map_or(0.0, |gap| gap.max(0.0))
     }
 
-    /// A place of a face, and the gap of a piece there.
+    /// A place of a face, and the gap there of a piece and those that it meets at an edge of their body; `nearest` where it is that of the piece.
     fn gap_at(
         &self,
         (face, number): (&FaceInPlace, usize),
@@ -162,15 +165,18 @@ impl Configuration<'_> {
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
-                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: false })
+                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: true })
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
+                let beside = &self.contact.beside[piece];
                 let admits = |other: usize, hit: &FaceProjection| {
+                    let of = self.contact.piece_of(other);
                     let faces_it = -hit.normal().dot(ray.n) > LEAST_COSINE;
-                    faces_it && self.contact.piece_of(other) == piece && self.contact.may_touch(number, other)
+                    faces_it && (of == piece || beside.contains(&of)) && self.contact.may_touch(number, other)
                 };
-                faces.nearest(&ray, range, admits).map(|(_, hit)| PlaceGap { x, n, gap: hit.gap, nearest: false })
+                let (other, hit) = faces.nearest(&ray, range, admits)?;
+                Some(PlaceGap { x, n, gap: hit.gap, nearest: self.contact.piece_of(other) == piece })
             }
         }
     }

@@ -341,6 +341,29 @@ impl FieldSurface {
         })
     }
 
+    /// Of each smooth piece those that it meets at an edge of the body, where this is convex.
+    pub fn pieces_beside(&self, mesh: &Mesh) -> Vec<BTreeSet<usize>> {
+        let mut beside = vec![BTreeSet::new(); self.pieces.iter().max().map_or(0, |last| last + 1)];
+        let mut around: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (f, face) in self.faces.iter().enumerate() {
+            (0..face.corners()).for_each(|corner| around.entry(face.corner_node(corner)).or_default().push(f));
+        }
+        let middle = |f: usize| {
+            let (face, rest) = (&self.faces[f], self.faces[f].at_rest(mesh));
+            (face.shape(face.middle()).value(rest.nodes()), self.middle_normal(face, &rest))
+        };
+        let together = if self.plane { 1 } else { 2 };
+        for (f, g) in around.values().flat_map(|faces| faces.iter().flat_map(|&f| faces.iter().map(move |&g| (f, g)))) {
+            if self.pieces[f] != self.pieces[g] && shared(&self.faces[f], &self.faces[g]) >= together {
+                let [(x, n), (y, _)] = [f, g].map(middle);
+                if n.dot(y - x) < 0.0 {
+                    beside[self.pieces[f]].insert(self.pieces[g]);
+                }
+            }
+        }
+        beside
+    }
+
     /// Size of a face, a length: its chord, or the root of its area.
     pub fn size(&self, face: usize, mesh: &Mesh) -> f64 {
         let face = &self.faces[face];

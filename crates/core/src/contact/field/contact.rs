@@ -3,14 +3,13 @@
 use super::cover::{FEET, Patch};
 use super::face::FieldFace;
 use super::faces::TargetFaces;
-use super::surface::{FieldNode, FieldSurface};
+use super::surface::{BodyEdge, FieldNode, FieldSurface};
 use super::tool::RigidTool;
 use crate::contact::record::largest_penetration;
 use crate::contact::{ContactParts, ContactSides};
 use crate::mesh::Mesh;
 use crate::system::{Dofs, History};
 use crate::tool::{self, ProfileTool, Tip};
-use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -67,8 +66,8 @@ pub struct FieldContact {
     pub(super) roles: FieldRoles,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
-    /// Of each piece of a body those that it meets at an edge of that.
-    pub(super) beside: Vec<BTreeSet<usize>>,
+    /// Convex edges of a target of bodies.
+    pub(super) edges: Vec<BodyEdge>,
     sizes: Vec<f64>,
     /// Undeformed areas of the nodes.
     pub(super) areas: Vec<f64>,
@@ -102,8 +101,8 @@ impl FieldContact {
             }
             FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
         };
-        let beside = target.as_faces().map_or(Vec::new(), |faces| faces.surface.pieces_beside(mesh));
-        Self { sides, roles, pieces, beside, sizes, areas }
+        let edges = target.as_faces().map_or(Vec::new(), |faces| faces.surface.edges(mesh));
+        Self { sides, roles, pieces, edges, sizes, areas }
     }
 
     /// The largest penetration of a closed node in an accepted state.
@@ -141,6 +140,10 @@ impl FieldContact {
     /// The smooth piece of a target's segment.
     pub(super) fn piece_of(&self, target: usize) -> usize {
         self.parts.target.as_faces().map_or(target, |faces| faces.surface.pieces[target])
+    }
+    /// Convex edges at which a piece of a target of bodies meets others.
+    pub(super) fn edges_of(&self, piece: usize) -> impl Iterator<Item = &BodyEdge> {
+        self.edges.iter().filter(move |edge| edge.faces.iter().any(|&face| self.piece_of(face) == piece))
     }
     /// Whether a piece of the target is a round one of a tool.
     pub(super) fn is_round(&self, piece: usize) -> bool {

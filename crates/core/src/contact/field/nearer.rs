@@ -23,6 +23,8 @@
 use super::configuration::{Configuration, TargetInPlace};
 use super::cover::FaceInPlace;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
+use super::space::foot;
+use super::surface::BodyEdge;
 use crate::contact::record::entry;
 use crate::system::History;
 use crate::tensor::Vec3;
@@ -131,6 +133,7 @@ impl Configuration<'_> {
                 let gap = self.gap_at((&face, number), xi, (piece, range));
                 gaps.extend(gap.map(|gap| PlaceGap { nearest: nearest && gap.nearest, ..gap }));
             }
+            self.at_edges((&face, number, corner), (piece, range), gaps);
             within += WITHIN * part * beyond_linear(&gaps[begin..]).range;
             let [own, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
             center += (own + (middle - own) * CENTRE) * part;
@@ -140,6 +143,44 @@ impl Configuration<'_> {
         let half = gaps.iter().filter(|gap| gap.nearest);
         let least = half.map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
         least.is_finite().then_some(Around { least, range: range.max(within), round })
+    }
+
+    /// Adds the places of a face, around its corner, over which edges of a piece of a body lie.
+    fn at_edges(
+        &self,
+        (face, number, corner): (&FaceInPlace, usize, usize),
+        (piece, range): (usize, [f64; 2]),
+        gaps: &mut Vec<PlaceGap>,
+    ) {
+        let (TargetInPlace::Faces(faces), Some(target)) = (&self.target, self.contact.parts.target.as_faces()) else { return };
+        let (surface, plane) = (&target.surface, face.plane);
+        let [here, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
+        let farthest = range[1] + 4.0 * (middle - here).norm();
+        let seen = |edge: &&BodyEdge| edge.faces.iter().all(|&other| self.contact.may_touch(number, other));
+        for edge in self.contact.edges_of(piece).filter(seen) {
+            let [from, to] = edge.ends.map(|corner| faces.corners(edge.faces[0])[corner]);
+            for x in PLACES.iter().take(if plane { 1 } else { PLACES.len() }).map(|t| from + (to - from) * *t) {
+                if (x - here).norm() > farthest {
+                    continue;
+                }
+                let xi = match face.corners() {
+                    [a, b] => [2.0 * (x - *a).dot(*b - *a) / (*b - *a).dot(*b - *a) - 1.0, 0.0],
+                    corners => foot(corners, x),
+                };
+                if !face.face.holds(xi, 0.0) {
+                    continue;
+                }
+                let at = face.at(xi);
+                let (n, functions) = (at.normal.unit(), at.corners.n);
+                let gap = (x - at.x).dot(n);
+                let normal = |other: usize| surface.middle_normal(&surface.faces[other], faces.placed(other));
+                let looks = edge.faces.iter().any(|&other| -normal(other).dot(n) > LEAST_COSINE);
+                if looks && (range[0]..=range[1]).contains(&gap) {
+                    let most = functions[..face.face.corners()].iter().copied().fold(0.0, f64::max);
+                    gaps.push(PlaceGap { x: at.x, n, gap, nearest: functions[corner] >= most - ROUNDED });
+                }
+            }
+        }
     }
 
     /// The gap at which a node lies in front of a piece, however far away; zero where nothing of that is in front of it.
@@ -169,11 +210,13 @@ impl Configuration<'_> {
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
-                let beside = &self.contact.beside[piece];
+                let together = |other: usize| {
+                    let of = |face: usize| self.contact.piece_of(face);
+                    of(other) == piece || self.contact.edges_of(piece).any(|edge| edge.faces.map(of).contains(&of(other)))
+                };
                 let admits = |other: usize, hit: &FaceProjection| {
-                    let of = self.contact.piece_of(other);
                     let faces_it = -hit.normal().dot(ray.n) > LEAST_COSINE;
-                    faces_it && (of == piece || beside.contains(&of)) && self.contact.may_touch(number, other)
+                    faces_it && together(other) && self.contact.may_touch(number, other)
                 };
                 let (other, hit) = faces.nearest(&ray, range, admits)?;
                 Some(PlaceGap { x, n, gap: hit.gap, nearest: self.contact.piece_of(other) == piece })
@@ -217,6 +260,9 @@ impl Nearer {
         if part < 1.0 { [part, slope / pressure] } else { [1.0, 0.0] }
     }
 }
+
+/// What functions of two corners differ by at a place between them, by rounding.
+const ROUNDED: f64 = 1e-9;
 
 /// The gaps around a node.
 struct Around {

@@ -341,27 +341,29 @@ impl FieldSurface {
         })
     }
 
-    /// Of each smooth piece those that it meets at an edge of the body, where this is convex.
-    pub fn pieces_beside(&self, mesh: &Mesh) -> Vec<BTreeSet<usize>> {
-        let mut beside = vec![BTreeSet::new(); self.pieces.iter().max().map_or(0, |last| last + 1)];
+    /// Edges of the body at which two smooth pieces meet, where it is convex; in the plane its corners.
+    pub fn edges(&self, mesh: &Mesh) -> Vec<BodyEdge> {
+        let (mut edges, together) = (Vec::new(), if self.plane { 1 } else { 2 });
         let mut around: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (f, face) in self.faces.iter().enumerate() {
             (0..face.corners()).for_each(|corner| around.entry(face.corner_node(corner)).or_default().push(f));
         }
-        let middle = |f: usize| {
-            let (face, rest) = (&self.faces[f], self.faces[f].at_rest(mesh));
+        let middle = |face: &FieldFace| {
+            let rest = face.at_rest(mesh);
             (face.shape(face.middle()).value(rest.nodes()), self.middle_normal(face, &rest))
         };
-        let together = if self.plane { 1 } else { 2 };
-        for (f, g) in around.values().flat_map(|faces| faces.iter().flat_map(|&f| faces.iter().map(move |&g| (f, g)))) {
-            if self.pieces[f] != self.pieces[g] && shared(&self.faces[f], &self.faces[g]) >= together {
-                let [(x, n), (y, _)] = [f, g].map(middle);
-                if n.dot(y - x) < 0.0 {
-                    beside[self.pieces[f]].insert(self.pieces[g]);
-                }
+        let meet = |&[f, g]: &[usize; 2]| f < g && self.pieces[f] != self.pieces[g];
+        let pairs = around.values().flat_map(|faces| faces.iter().flat_map(|&f| faces.iter().map(move |&g| [f, g])));
+        for pair in pairs.filter(meet).collect::<BTreeSet<_>>() {
+            let [own, other] = pair.map(|f| &self.faces[f]);
+            let is_shared = |&corner: &usize| (0..other.corners()).any(|c| other.corner_node(c) == own.corner_node(corner));
+            let ends: Vec<usize> = (0..own.corners()).filter(is_shared).collect();
+            let [(x, n), (y, _)] = [own, other].map(middle);
+            if ends.len() >= together && n.dot(y - x) < 0.0 {
+                edges.push(BodyEdge { faces: pair, ends: [ends[0], ends[ends.len() - 1]] });
             }
         }
-        beside
+        edges
     }
 
     /// Size of a face, a length: its chord, or the root of its area.
@@ -484,6 +486,15 @@ const CORNER: f64 = 0.75 * std::f64::consts::PI;
 
 /// Step of the differences of the area density, in reference coordinates.
 const STEP: f64 = 1e-3;
+
+/// An edge of a body at which two smooth pieces of its surface meet, in the plane a corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BodyEdge {
+    /// A face of either.
+    pub faces: [usize; 2],
+    /// Corners of the first face at its ends, in the plane one.
+    pub ends: [usize; 2],
+}
 
 /// Number of corners that two faces have in common.
 fn shared(one: &FieldFace, other: &FieldFace) -> usize {

@@ -167,10 +167,10 @@ impl Configuration<'_> {
                     [a, b] => [2.0 * (x - *a).dot(*b - *a) / (*b - *a).dot(*b - *a) - 1.0, 0.0],
                     corners => foot(corners, x),
                 };
-                if !face.face.holds(xi, 0.0) {
+                if !face.face.holds(xi, OVER) {
                     continue;
                 }
-                let at = face.at(xi);
+                let at = face.at(face.face.nearest(xi));
                 let (n, functions) = (at.normal.unit(), at.corners.n);
                 let gap = (x - at.x).dot(n);
                 let normal = |other: usize| surface.middle_normal(&surface.faces[other], faces.placed(other));
@@ -261,6 +261,8 @@ impl Nearer {
     }
 }
 
+/// How far past the edges of a face, in reference coordinates, what lies over it may be: over none of two that meet in a ridge.
+const OVER: f64 = 0.1;
 /// What functions of two corners differ by at a place between them, by rounding.
 const ROUNDED: f64 = 1e-9;
 

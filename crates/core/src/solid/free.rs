@@ -41,7 +41,7 @@ impl Free {
             Space::Solid => format!("is free to turn about {}", about.join(" and ")),
             _ => "is free to turn".into(),
         });
-        let deforms = "deforms without resistance, as cells with reduced integration may (hourglass)";
+        let deforms = "deforms without resistance, as what flows all through does, and cells with reduced integration may (hourglass)";
         along.into_iter().chain(about).chain(self.deforms.then(|| deforms.into())).collect()
     }
 }

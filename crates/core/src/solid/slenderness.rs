@@ -350,13 +350,14 @@ impl Body {
         let (mut energy, mut excess) = (0.0, 0.0);
         let has_modes = |&&cell: &&usize| self.shapes(self.mesh.cell(cell).kind).modes > 0;
         for &cell in self.cells.iter().filter(has_modes) {
-            let Rest { even, left, .. } = self.rest(cell, u);
+            let Rest { even, left, strain, .. } = self.rest(cell, u);
             let bent = |[a, b]: [usize; 2]| {
                 let edge = even[b] - even[a];
                 (left[b] - left[a]).dot(edge).abs() / edge.dot(edge)
             };
             let square = self.mesh.cell(cell).kind.edges().map(bent).fold(0.0, f64::max).powi(2);
-            energy += square * self.mesh.measure(cell);
+            // With two cells through a body that bends alone both are alike.
+            energy += square.max(strain * strain) * self.mesh.measure(cell);
             excess += BENT * square * square * self.mesh.measure(cell);
         }
         Some(excess / energy).filter(|part| *part > FAR)

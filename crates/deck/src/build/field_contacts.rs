@@ -64,7 +64,8 @@ impl Builder<'_> {
                 FieldSides { carrier: surface, target, itself: false, swapped: false }
             }
             Opposite::Sides(others) => {
-                let may_swap = keys.roles == Roles::Auto;
+                // What wears is the side that the deck names.
+                let may_swap = keys.roles == Roles::Auto && keys.wear.is_none();
                 FieldSides::new([surface, others], may_swap, (&mesh, space, self.site.thickness), backings)
             }
         };

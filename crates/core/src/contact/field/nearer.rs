@@ -32,6 +32,8 @@ use crate::tensor::Vec3;
 /// The mean gap less the least one over the half faces around a node, over the range of what a linear gap leaves: of a parabola
 /// `5/24` over `1/2` at most, with its vertex half a face away, of facets that lean against each other `1/6` over `1/2`.
 const MOST: f64 = 5.0 / 12.0;
+/// That range over the mean gap less that at an edge: of one over the node `1` over `1/3`.
+const EDGE: f64 = 3.0;
 /// That range around a node inside the surface over that on one of its faces, of a parabola.
 const WITHIN: f64 = 4.0;
 /// Where the centre of a node's function lies on the way from it to the middle of a face.
@@ -96,10 +98,13 @@ impl Configuration<'_> {
             let near = |&node: &usize| straight[node] > 0.0 && close(node) && !follows(node) && !curved(node);
             for node in (0..surface.nodes.len()).filter(near) {
                 let Some(around) = self.around(node, piece, (far, depths), &mut gaps) else { continue };
-                let more = gap(node).map_or(0.0, |gap| gap - around.least).min(MOST * around.range);
+                let than = |least: f64| gap(node).map_or(0.0, |gap| gap - least);
+                let at_edge = than(around.edge).max(0.0);
+                let more = than(around.least).min(MOST * around.range).max(at_edge);
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
-                    let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * around.range);
+                    let range = around.range.max(EDGE * at_edge);
+                    let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * range);
                     nearer[slot] = Nearer { most, scale, round: around.round };
                     if closed(node) {
                         // What bears is not pushed any farther.
@@ -140,9 +145,12 @@ impl Configuration<'_> {
         }
         let Beyond { slope, range, round } = beyond_linear(gaps);
         let leans = |gap: &PlaceGap| if self.contact.is_round(piece) { 0.0 } else { slope.dot(gap.x - center) };
-        let half = gaps.iter().filter(|gap| gap.nearest);
-        let least = half.map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
-        least.is_finite().then_some(Around { least, range: range.max(within), round })
+        let least = |edge: bool| {
+            let half = gaps.iter().filter(|gap| gap.nearest && gap.edge == edge);
+            half.map(|gap| if edge { gap.gap } else { gap.gap - leans(gap) }).fold(f64::INFINITY, f64::min)
+        };
+        let [least, edge] = [false, true].map(least);
+        least.min(edge).is_finite().then_some(Around { least, edge, range: range.max(within), round })
     }
 
     /// Adds the places of a face, around its corner, over which edges of a piece of a body lie.
@@ -177,7 +185,7 @@ impl Configuration<'_> {
                 let looks = edge.faces.iter().any(|&other| -normal(other).dot(n) > LEAST_COSINE);
                 if looks && (range[0]..=range[1]).contains(&gap) {
                     let most = functions[..face.face.corners()].iter().copied().fold(0.0, f64::max);
-                    gaps.push(PlaceGap { x: at.x, n, gap, nearest: functions[corner] >= most - ROUNDED });
+                    gaps.push(PlaceGap { x: at.x, n, gap, nearest: functions[corner] >= most - ROUNDED, edge: true });
                 }
             }
         }
@@ -206,7 +214,7 @@ impl Configuration<'_> {
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
-                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: true })
+                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: true, edge: false })
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
@@ -219,7 +227,7 @@ impl Configuration<'_> {
                     faces_it && together(other) && self.contact.may_touch(number, other)
                 };
                 let (other, hit) = faces.nearest(&ray, range, admits)?;
-                Some(PlaceGap { x, n, gap: hit.gap, nearest: self.contact.piece_of(other) == piece })
+                Some(PlaceGap { x, n, gap: hit.gap, nearest: self.contact.piece_of(other) == piece, edge: false })
             }
         }
     }
@@ -270,6 +278,8 @@ const ROUNDED: f64 = 1e-9;
 struct Around {
     /// The least over the half faces.
     least: f64,
+    /// The least where edges of bodies lie over them: these touch by themselves, however a face leans.
+    edge: f64,
     /// The range of what a linear gap leaves, and how nearly round that is.
     range: f64,
     round: f64,
@@ -284,6 +294,8 @@ struct PlaceGap {
     gap: f64,
     /// Whether the place is nearer to the node than to others.
     nearest: bool,
+    /// Whether an edge of a body lies over it.
+    edge: bool,
 }
 
 /// Places of a face, and whether they belong to the part that is nearest to a corner.

@@ -346,7 +346,12 @@ impl Look<'_> {
             }
             let mut report = |depth: f64, piece: usize, manner: Manner| {
                 let sagitta = a.sagitta_at(vertex) + b.sagitta_of(piece);
-                let size = a.size_at(vertex).min(b.size_of(piece));
+                // Where an edge presses into a face the cells behind that tell how far it can follow.
+                let size = match (a.surface.is_sharp(vertex), b.surface.is_at_edge(piece)) {
+                    (true, _) => b.size_of(piece),
+                    (false, true) => a.size_at(vertex),
+                    (false, false) => a.size_at(vertex).min(b.size_of(piece)),
+                };
                 let bodies = [a.surface.body_at(vertex), b.surface.body_of(piece)];
                 let other = Other::Whole(other);
                 let vertex = Some(vertex);

@@ -28,6 +28,8 @@ pub struct Surface {
     /// The pieces across the edges of each.
     neighbours: Vec<Vec<usize>>,
     sides: Vec<SideOf>,
+    /// Vertices at which it has an edge before any motion.
+    sharp: Vec<bool>,
     /// Its nodes.
     pub nodes: Vec<usize>,
 }
@@ -82,6 +84,7 @@ impl Surface {
             parents: Vec::new(),
             neighbours: Vec::new(),
             sides: Vec::new(),
+            sharp: Vec::new(),
             nodes: Vec::new(),
         };
         let mut known = BTreeMap::new();
@@ -91,7 +94,31 @@ impl Surface {
         surface.nodes = known.into_keys().collect();
         surface.thicknesses(mesh);
         surface.neighbours = neighbours(&surface.pieces, plane);
+        surface.sharp = surface.edges(mesh);
         surface
+    }
+
+    /// Vertices at which two pieces meet at an edge.
+    fn edges(&self, mesh: &Mesh) -> Vec<bool> {
+        let at = |vertex: &Vertex| vertex.nodes.iter().fold(Vec3::zero(), |sum, &(node, w)| sum + mesh.points[node] * w);
+        let x: Vec<Vec3> = self.vertices.iter().map(at).collect();
+        let normals: Vec<Vec3> = (0..self.pieces.len()).map(|i| self.piece(&x, i).direction()).collect();
+        let mut sharp = vec![false; x.len()];
+        for (i, around) in self.neighbours.iter().enumerate() {
+            for &j in around.iter().filter(|&&j| (normals[i] - normals[j]).norm() >= CURVED) {
+                let shared = self.pieces[i].iter().filter(|vertex| self.pieces[j].contains(vertex));
+                shared.for_each(|&vertex| sharp[vertex] = true);
+            }
+        }
+        sharp
+    }
+    /// Whether a vertex lies on an edge of the boundary,
+    pub fn is_sharp(&self, vertex: usize) -> bool {
+        self.sharp[vertex]
+    }
+    /// and a piece at one.
+    pub fn is_at_edge(&self, piece: usize) -> bool {
+        self.pieces[piece].iter().any(|&vertex| self.sharp[vertex])
     }
 
     fn add(&mut self, mesh: &Mesh, side: Side, body: usize, known: &mut BTreeMap<usize, usize>) {

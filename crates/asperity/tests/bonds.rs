@@ -79,3 +79,32 @@ displacement."b.top" = {{ x = 0.0, y = {pulled} }}
         }
     }
 }
+
+/// A ring glued into another, whose facets do not match, is pulled at: nodes before which the other side stands off by its facets had no bond, and what
+/// overlaps by them pressed the others apart, so that none or half of the force was left.
+#[test]
+fn facets_that_stand_off_are_glued() {
+    for ([inner, outer], cell) in [([40, 34], "quad4"), ([24, 60], "quad4"), ([38, 36], "quad4"), ([40, 34], "tri3")] {
+        for overlap in ["", ", overlap = \"adjust\"", ", overlap = \"fit\""] {
+            let deck = format!(
+                r#"
+version = 1
+space = "plane-strain"
+mesh.part.i.annulus = {{ from = [10.0, 0.0], to = [20.0, 360.0], cells = [4, {inner}], cell = "{cell}" }}
+mesh.part.o.annulus = {{ from = [20.0, 7.0], to = [30.0, 367.0], cells = [4, {outer}], cell = "{cell}" }}
+material.s.elastic = {{ young = 2e5, poisson = 0.3 }}
+body.i.material = "s"
+body.o.material = "s"
+contact.glue = {{ surface = "i.outer", target = "o.inner", law.cohesive = {{ friction = 0.3, cohesion = 50.0, tension = 50.0 }}{overlap} }}
+[[step]]
+displacement."i.inner" = {{ x = 0.0, y = 0.0 }}
+displacement."o.outer" = {{ x = 0.004, y = 0.0 }}
+"#
+            );
+            let model = model(&deck, &[]);
+            let force = *columns(&model, &run(&model))["reaction.o.outer.x"].last().unwrap();
+            // Of rings of second degree that match.
+            assert!((force / 3528.0 - 1.0).abs() < 0.01, "{inner} {outer} {cell}{overlap}: {force}");
+        }
+    }
+}

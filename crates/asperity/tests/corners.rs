@@ -3,7 +3,10 @@
 
 mod support;
 
-use support::{columns, model, run};
+use asperity::deck::{build, read_with};
+use asperity::model::Model;
+use std::path::Path;
+use support::{columns, made, model, run};
 
 /// Force of the contact at the end of a deck.
 fn forces(deck: &str) -> [f64; 3] {
@@ -141,5 +144,103 @@ displacement."b.top" = { x = 7.7, y = -2.1 }
     for cell in ["quad4", "quad8"] {
         let [force, ..] = forces(&deck.replace("CELL", cell));
         assert!((force / 24.5 - 1.0).abs() < 0.05, "{cell}: {force}");
+    }
+}
+
+/// A deck whose parts are those of another, with the nodes of one moved before anything else.
+fn moved(parts: &str, rest: &str, body: &str, to: impl Fn([f64; 2]) -> [f64; 2]) -> Model {
+    let deck = |mesh: &str| format!("version = 1\nspace = \"plane-strain\"\n{mesh}\n{rest}");
+    let mut mesh = (*made(&deck(parts), &[]).model.mesh).clone();
+    // The deck makes its own again.
+    mesh.groups.retain(|name, _| !rest.contains(&format!("group.{name} ")));
+    for node in mesh.groups[body].nodes.clone() {
+        let x = &mut mesh.points[node];
+        [x[0], x[1]] = to([x[0], x[1]]);
+    }
+    let made = read_with(&deck("mesh.file = \"m.msh\""), "test.toml", Path::new(""), &[], Some(mesh)).and_then(build);
+    made.unwrap_or_else(|found| panic!("{}", found.render(false))).model
+}
+
+/// The corner of a stiff block, whose sides lean by such an angle, presses into a soft one, of so many cells: forces on the way.
+fn wedge(degrees: f64, cells: [usize; 2], fine: usize) -> Vec<f64> {
+    let parts = format!(
+        "mesh.part.w.rectangle = {{ from = [0.0, 0.0], to = [10.0, 10.0], cells = [{fine}, {fine}], cell = \"quad4\" }}
+        mesh.part.b.rectangle = {{ from = [-15.0, -10.0], to = [15.0, 0.0], cells = [{}, {}], cell = \"quad4\" }}",
+        cells[0], cells[1]
+    );
+    let rest = r#"
+material.h.elastic = { young = 20000.0, poisson = 0.3 }
+material.s.elastic = { young = 1000.0, poisson = 0.3 }
+body.w.material = "h"
+body.b.material = "s"
+group.tip = { of = "w.bottom", with = ["w.left"] }
+group.grip = { of = "w.top", with = ["w.right"] }
+contact.c = { surface = "tip", target = "b.top", law.coulomb.friction = 0.2 }
+[[step]]
+increments.count = 12
+displacement."b.bottom" = { x = 0.0, y = 0.0 }
+displacement.grip = { x = 0.0, y = -0.3 }
+"#;
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let model = moved(&parts, rest, "w", |[x, y]| [x * cos - y * sin, x * sin + y * cos]);
+    columns(&model, &run(&model))["contact.c.force.y"].clone()
+}
+
+/// The gap of each of its sides is linear over a face, and their mean is a good part of that: a corner was not felt before it lay a quarter of a cell
+/// deep, where the run ended, though a node of the other side lay under it.
+#[test]
+fn a_corner_is_felt_wherever_it_touches() {
+    for (degrees, least) in [(45.0, 0.6), (30.0, 0.6)] {
+        let right = wedge(degrees, [90, 30], 24);
+        for (cells, fine) in [([18, 6], 6), ([19, 6], 6), ([19, 6], 24), ([45, 15], 6), ([44, 15], 9)] {
+            let force = wedge(degrees, cells, fine);
+            let ratios: Vec<f64> = force.iter().zip(&right).map(|(force, right)| force / right).collect();
+            assert!(ratios.iter().all(|ratio| (least..1.25).contains(ratio)), "{degrees} {cells:?} {fine}: {ratios:?}");
+            assert!(force.windows(2).all(|pair| pair[1] > pair[0]), "{force:?}");
+        }
+    }
+}
+
+/// A serpentine spring of thin legs is squeezed, all of its sides in one group. A ray inward that grazed another leg took the end of that for the end of its
+/// own: a node saw the far side of its own leg and "came to lie" a thickness deep in that.
+#[test]
+fn legs_of_a_spring_do_not_see_their_own_far_sides() {
+    let (legs, length, radius, thickness) = (5.0, 20.0, 2.0, 1.5);
+    let turn = std::f64::consts::PI * radius;
+    let all = legs * length + (legs - 1.0) * turn;
+    for cells in [100, 80] {
+        let parts = format!(
+            "mesh.part.s.rectangle = {{ from = [0.0, {}], to = [{all}, {}], cells = [{cells}, 1], cell = \"quad8\" }}",
+            -0.5 * thickness,
+            0.5 * thickness
+        );
+        let rest = r#"
+material.m.neo_hookean = { shear = 1.3, bulk = 20.0 }
+body.s.material = "m"
+group.skin = { of = "s.top", with = ["s.bottom"] }
+contact.self = { surface = "skin", target = "skin", law.frictionless = {} }
+[[step]]
+increments.count = 20
+displacement."s.left" = { x = 0.0, y = 0.0 }
+displacement."s.right" = { x = -8.0, y = 0.0 }
+"#;
+        let model = moved(&parts, rest, "s", |[s, across]| {
+            let leg = (s / (length + turn)).floor().min(legs - 1.0);
+            let (along, up) = (s - leg * (length + turn), leg % 2.0 == 0.0);
+            let middle = 2.0 * radius * leg;
+            let way = if up { 1.0 } else { -1.0 };
+            if along <= length {
+                let y = if up { along } else { length - along };
+                return [middle - way * across, y];
+            }
+            // Legs that go up turn clockwise at their upper end, others the other way at their lower one.
+            let angle = (along - length) / radius;
+            let out = radius + way * across;
+            [middle + radius - out * angle.cos(), if up { length + out * angle.sin() } else { -out * angle.sin() }]
+        });
+        let table = columns(&model, &run(&model));
+        let force: Vec<f64> = table["reaction.s.right.x"].iter().map(|force| -force).collect();
+        // As long as nothing touches it is nearly linear.
+        assert!((force[5] / force[2] - 2.0).abs() < 0.1 && force[19] > force[5], "{cells}: {force:?}");
     }
 }

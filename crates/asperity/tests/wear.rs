@@ -128,3 +128,58 @@ increments.count = {increments}
     let [coarse, fine] = [50, 200].map(drawn);
     assert!((coarse / fine - 1.0).abs() < 0.02, "{coarse} {fine}");
 }
+
+/// A stiff block on a longer soft one, which carries the field where nothing wears: nodes come under the block at its front, where the pressure is large, and
+/// had its work over all of their area for all of the increment, 1.44 of it in 45 increments.
+fn dragged(increments: usize, wear: &str) -> String {
+    format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.b.rectangle = {{ from = [0.0, 0.0], to = [60.0, 8.0], cells = [36, 2], cell = "quad4" }}
+mesh.part.s.rectangle = {{ from = [5.0, 8.0], to = [17.0, 14.0], cells = [12, 3], cell = "quad4" }}
+material.m.elastic = {{ young = 200.0, poisson = 0.3 }}
+material.r.elastic = {{ young = 2000.0, poisson = 0.4 }}
+body.b.material = "m"
+body.s.material = "r"
+rigid.g.group = "s.top"
+contact.k = {{ surface = "s.bottom", target = "b.top", law.coulomb.friction = 0.4{wear} }}
+[[step]]
+displacement."b.bottom" = {{ x = 0.0, y = 0.0 }}
+motion.g = {{ x = 0.0, y = -0.02, rotation = 0.0 }}
+[[step]]
+motion.g = {{ x = 0.0, rotation = 0.0 }}
+load.g.y = -120.0
+[[step]]
+motion.g = {{ x = 30.0, rotation = 0.0 }}
+load.g.y = -120.0
+increments.count = {increments}
+"#
+    )
+}
+
+#[test]
+fn what_travels_along_a_surface_has_the_work_of_its_friction() {
+    for (increments, within) in [(20, 0.1), (40, 0.04)] {
+        let model = model(&dragged(increments, ""), &[]);
+        assert_eq!(model.field_contacts[0].surface().nodes.len(), 37);
+        let table = columns(&model, &run(&model));
+        let part = table["energy.friction"].last().unwrap() / (0.4 * 120.0 * 30.0);
+        assert!((part - 1.0).abs() < within, "{increments}: {part}");
+    }
+}
+
+/// What the deck names as the surface wears, whatever the meshes: the other side had, and the block sank by half.
+#[test]
+fn the_named_side_wears() {
+    let model = model(&dragged(20, ", wear = { coefficient = 1e-4, recedes = true }"), &[]);
+    assert_eq!(model.field_contacts[0].surface().nodes.len(), 13);
+    let volume = 1e-4 * 120.0 * 30.0;
+    let records = |state: &asperity::system::State| {
+        let contact = &model.field_contacts[0];
+        contact.records(&state.u, &state.histories[model.first_contact()])
+    };
+    let keep = run(&model);
+    let worn: f64 = records(keep.states.last().unwrap()).iter().map(|record| 1e-4 * record.worn * record.area).sum();
+    assert!((worn / volume - 1.0).abs() < 0.05, "{worn} {volume}");
+}

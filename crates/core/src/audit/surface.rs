@@ -100,7 +100,8 @@ impl Surface {
 
     /// Vertices at which two pieces meet at an edge.
     fn edges(&self, mesh: &Mesh) -> Vec<bool> {
-        let at = |vertex: &Vertex| vertex.nodes.iter().fold(Vec3::zero(), |sum, &(node, w)| sum + mesh.points[node] * w);
+        let at =
+            |vertex: &Vertex| vertex.nodes.iter().fold(Vec3::zero(), |sum, &(node, w)| sum + mesh.points[node] * w);
         let x: Vec<Vec3> = self.vertices.iter().map(at).collect();
         let normals: Vec<Vec3> = (0..self.pieces.len()).map(|i| self.piece(&x, i).direction()).collect();
         let mut sharp = vec![false; x.len()];

@@ -24,7 +24,8 @@ pub(in crate::contact) fn account(
     let (pressures, [s_before, t_before]) = ([old[entry::PRESSURE], now[0]], [old[entry::SHEAR], old[entry::SHEAR2]]);
     let [area_before, area] = areas;
     local.energies.stored = area * (law.stored(now[0], past.penalty) - 0.5 * now[0] * multiplied);
-    let (before, [s, t]) = ([s_before, t_before].map(|stress| area_before * stress), [now[1], now[2]].map(|stress| area * stress));
+    let (before, [s, t]) =
+        ([s_before, t_before].map(|stress| area_before * stress), [now[1], now[2]].map(|stress| area * stress));
     let mean = [0.5 * (before[0] + s), 0.5 * (before[1] + t)];
     let (shear, before) = (s.hypot(t), before[0].hypot(before[1]));
     let steady = if options.augmentation.is_some() {

@@ -160,7 +160,9 @@ impl Configuration<'_> {
         (piece, range): (usize, [f64; 2]),
         gaps: &mut Vec<PlaceGap>,
     ) {
-        let (TargetInPlace::Faces(faces), Some(target)) = (&self.target, self.contact.parts.target.as_faces()) else { return };
+        let (TargetInPlace::Faces(faces), Some(target)) = (&self.target, self.contact.parts.target.as_faces()) else {
+            return;
+        };
         let (surface, plane) = (&target.surface, face.plane);
         let [here, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
         let farthest = range[1] + 4.0 * (middle - here).norm();
@@ -214,13 +216,20 @@ impl Configuration<'_> {
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
-                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: true, edge: false })
+                foot.beyond.is_none().then_some(PlaceGap {
+                    x,
+                    n: foot.normal,
+                    gap: foot.gap,
+                    nearest: true,
+                    edge: false,
+                })
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
                 let together = |other: usize| {
                     let of = |face: usize| self.contact.piece_of(face);
-                    of(other) == piece || self.contact.edges_of(piece).any(|edge| edge.faces.map(of).contains(&of(other)))
+                    of(other) == piece
+                        || self.contact.edges_of(piece).any(|edge| edge.faces.map(of).contains(&of(other)))
                 };
                 let admits = |other: usize, hit: &FaceProjection| {
                     let faces_it = -hit.normal().dot(ray.n) > LEAST_COSINE;

@@ -356,7 +356,8 @@ impl FieldSurface {
         let pairs = around.values().flat_map(|faces| faces.iter().flat_map(|&f| faces.iter().map(move |&g| [f, g])));
         for pair in pairs.filter(meet).collect::<BTreeSet<_>>() {
             let [own, other] = pair.map(|f| &self.faces[f]);
-            let is_shared = |&corner: &usize| (0..other.corners()).any(|c| other.corner_node(c) == own.corner_node(corner));
+            let is_shared =
+                |&corner: &usize| (0..other.corners()).any(|c| other.corner_node(c) == own.corner_node(corner));
             let ends: Vec<usize> = (0..own.corners()).filter(is_shared).collect();
             let [(x, n), (y, _)] = [own, other].map(middle);
             if ends.len() >= together && n.dot(y - x) < 0.0 {

@@ -3,6 +3,7 @@
 use super::attempt::FieldAttempt;
 use super::configuration::Configuration;
 use super::contact::FieldContact;
+use super::nearer::Nearer;
 use crate::Failure;
 use crate::contact::Overlap;
 use crate::contact::increment::reach;
@@ -39,13 +40,14 @@ impl FieldContact {
                 continue;
             }
             let gap = -values[entry::PENETRATION];
+            let bond = is_bond(self.parts.law.first(), &past(values, penalties, 0.0));
             let fits = match self.parts.options.overlap {
                 Overlap::Fit => gap > 0.0 && gap <= fits,
                 // A bond is made between surfaces that fit.
-                Overlap::Ramp(_) => gap.abs() <= fits && is_bond(self.parts.law.first(), &past(values, penalties, 0.0)),
+                Overlap::Ramp(_) => bond && gap.abs() <= fits,
                 Overlap::Keep => false,
             };
-            values[entry::NEARER] = nearer.most;
+            values[entry::NEARER] = if bond { 0.0 } else { nearer.most };
             if fits {
                 Overlap::fit(values);
             } else {
@@ -143,13 +145,16 @@ impl Term for FieldContact {
         let law = self.parts.law.at(at.step, at.step_time)?;
         let normal = self.kept_penalty(history);
         let (far, depths) = (reach(self.longest, &accepted.last_change), self.depths(&accepted.u));
+        let (bonds, mut nearer) = (self.bonds(&*law, history, normal), before.nearer(history, (far, &depths)));
+        // What is glued does not begin to touch.
+        nearer.iter_mut().zip(&bonds).filter(|(_, bond)| **bond).for_each(|(nearer, _)| *nearer = Nearer::default());
         Ok(Box::new(FieldAttempt {
             contact: self,
             history,
             accepted: &accepted.u,
             tips_before: self.tips_before(&before, history),
             duals: self.dual_limits(&before.placed, history),
-            nearer: before.nearer(history, (far, &depths)),
+            nearer,
             before,
             depths,
             reach: self.reach(&accepted.last_change),
@@ -159,7 +164,7 @@ impl Term for FieldContact {
             before_augmented: f64::INFINITY,
             at,
             tangential: self.tangential_penalties(&*law, history, normal),
-            bonds: self.bonds(&*law, history, normal),
+            bonds,
             normal,
             stiffened: false,
             law,

@@ -102,17 +102,20 @@ impl TargetFaces {
         FacesInPlace { faces: self, mesh, tree: self.tree.refit(&boxes, MARGIN * self.size), placed }
     }
 
-    /// How deep the body is behind the middle of a side before any motion, when no part of it lies within another.
+    /// How deep the body is behind the middle of a side before any motion, when it does not lie within itself; others may overlap it.
     fn thickness(&self, of: Side, mesh: &Mesh) -> f64 {
         let all = || {
             let placed: Vec<PlacedFace> = self.surface.faces.iter().map(|face| face.at_rest(mesh)).collect();
+            let wholes = mesh.wholes();
             let behind = |(number, face): (usize, &FieldFace)| {
                 let shape = face.shape(face.middle());
                 let [a, b] = shape.tangents(placed[number].nodes(), self.surface.plane);
                 let ray = FaceRay { x: shape.value(placed[number].nodes()), n: -a.cross(b).unit() };
                 let mut first = f64::INFINITY;
                 self.meet((&self.tree, &placed), &ray, [LEAST * a.norm(), f64::MAX], |other, hit| {
-                    if self.surface.faces[other].side != face.side && hit.normal().dot(ray.n) > 0.0 {
+                    let side = self.surface.faces[other].side;
+                    let own = side != face.side && wholes[side.cell] == wholes[face.side.cell];
+                    if own && hit.normal().dot(ray.n) > 0.0 {
                         first = first.min(hit.gap);
                     }
                 });

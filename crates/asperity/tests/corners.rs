@@ -190,12 +190,12 @@ displacement.grip = { x = 0.0, y = -0.3 }
 /// deep, where the run ended, though a node of the other side lay under it.
 #[test]
 fn a_corner_is_felt_wherever_it_touches() {
-    for (degrees, least) in [(45.0, 0.6), (30.0, 0.6)] {
+    for degrees in [45.0, 30.0] {
         let right = wedge(degrees, [90, 30], 24);
         for (cells, fine) in [([18, 6], 6), ([19, 6], 6), ([19, 6], 24), ([45, 15], 6), ([44, 15], 9)] {
             let force = wedge(degrees, cells, fine);
             let ratios: Vec<f64> = force.iter().zip(&right).map(|(force, right)| force / right).collect();
-            assert!(ratios.iter().all(|ratio| (least..1.25).contains(ratio)), "{degrees} {cells:?} {fine}: {ratios:?}");
+            assert!(ratios.iter().all(|ratio| (0.6..1.25).contains(ratio)), "{degrees} {cells:?} {fine}: {ratios:?}");
             assert!(force.windows(2).all(|pair| pair[1] > pair[0]), "{force:?}");
         }
     }

@@ -92,19 +92,26 @@ impl Surface {
             surface.add(mesh, side, body(side.cell), &mut known);
         }
         surface.nodes = known.into_keys().collect();
-        surface.thicknesses(mesh);
+        let pieces = surface.at_rest(mesh);
+        surface.thicknesses(&pieces);
         surface.neighbours = neighbours(&surface.pieces, plane);
-        surface.sharp = surface.edges(mesh);
+        surface.sharp = surface.edges(&pieces);
         surface
     }
 
-    /// Vertices at which two pieces meet at an edge.
-    fn edges(&self, mesh: &Mesh) -> Vec<bool> {
-        let at =
-            |vertex: &Vertex| vertex.nodes.iter().fold(Vec3::zero(), |sum, &(node, w)| sum + mesh.points[node] * w);
+    /// Its pieces before any motion.
+    fn at_rest(&self, mesh: &Mesh) -> Vec<Simplex> {
+        let at = |vertex: &Vertex| {
+            vertex.nodes.iter().fold(Vec3::zero(), |sum, &(node, weight)| sum + mesh.points[node] * weight)
+        };
         let x: Vec<Vec3> = self.vertices.iter().map(at).collect();
-        let normals: Vec<Vec3> = (0..self.pieces.len()).map(|i| self.piece(&x, i).direction()).collect();
-        let mut sharp = vec![false; x.len()];
+        (0..self.pieces.len()).map(|i| self.piece(&x, i)).collect()
+    }
+
+    /// Vertices at which two of these pieces meet at an edge.
+    fn edges(&self, pieces: &[Simplex]) -> Vec<bool> {
+        let normals: Vec<Vec3> = pieces.iter().map(Simplex::direction).collect();
+        let mut sharp = vec![false; self.vertices.len()];
         for (i, around) in self.neighbours.iter().enumerate() {
             for &j in around.iter().filter(|&&j| (normals[i] - normals[j]).norm() >= CURVED) {
                 let shared = self.pieces[i].iter().filter(|vertex| self.pieces[j].contains(vertex));
@@ -164,14 +171,9 @@ impl Surface {
         self.sides.push(SideOf { body, nodes, centre, second, thickness });
     }
 
-    /// Divides the measures of the cells by those of their sides.
-    fn thicknesses(&mut self, mesh: &Mesh) {
-        let at = |vertex: &Vertex| {
-            vertex.nodes.iter().fold(Vec3::zero(), |sum, &(node, weight)| sum + mesh.points[node] * weight)
-        };
-        let x: Vec<Vec3> = self.vertices.iter().map(at).collect();
-        let pieces: Vec<Simplex> = (0..self.pieces.len()).map(|i| self.piece(&x, i)).collect();
-        let sizes = self.sizes(&pieces);
+    /// Divides the measures of the cells by those of their sides, which consist of these pieces.
+    fn thicknesses(&mut self, pieces: &[Simplex]) {
+        let sizes = self.sizes(pieces);
         for (side, size) in self.sides.iter_mut().zip(sizes) {
             side.thickness /= if self.plane { size } else { size * size };
         }

@@ -28,6 +28,15 @@ pub struct FaceRay {
     pub n: Vec3,
 }
 
+impl FaceRay {
+    /// Into the body from a place of a face, with the length from which on it may leave the body where the face is curved.
+    pub fn inward((face, placed): (&FieldFace, &PlacedFace), xi: [f64; 2], plane: bool) -> (Self, f64) {
+        let shape = face.shape(xi);
+        let [a, b] = shape.tangents(placed.nodes(), plane);
+        (Self { x: shape.value(placed.nodes()), n: -a.cross(b).unit() }, LEAST * a.norm())
+    }
+}
+
 /// Where a ray meets a face.
 #[derive(Debug, Clone, Copy)]
 pub struct FaceProjection {
@@ -108,11 +117,9 @@ impl TargetFaces {
             let placed: Vec<PlacedFace> = self.surface.faces.iter().map(|face| face.at_rest(mesh)).collect();
             let wholes = mesh.wholes();
             let behind = |(number, face): (usize, &FieldFace)| {
-                let shape = face.shape(face.middle());
-                let [a, b] = shape.tangents(placed[number].nodes(), self.surface.plane);
-                let ray = FaceRay { x: shape.value(placed[number].nodes()), n: -a.cross(b).unit() };
+                let (ray, least) = FaceRay::inward((face, &placed[number]), face.middle(), self.surface.plane);
                 let mut first = f64::INFINITY;
-                self.meet((&self.tree, &placed), &ray, [LEAST * a.norm(), f64::MAX], |other, hit| {
+                self.meet((&self.tree, &placed), &ray, [least, f64::MAX], |other, hit| {
                     let side = self.surface.faces[other].side;
                     let own = side != face.side && wholes[side.cell] == wholes[face.side.cell];
                     if own && hit.normal().dot(ray.n) > 0.0 {
@@ -245,7 +252,7 @@ impl FacesInPlace<'_> {
 
 /// Depth of a body behind a side, over that before any motion, up to which it is searched for behind parts that overlap it.
 const SWOLLEN: f64 = 2.0;
-/// Length of a side from which on a ray that begins on it, where it is curved, may leave the body.
+/// Part of a tangent of a face from which on a ray inward may leave the body.
 const LEAST: f64 = 1e-3;
 
 /// Where a ray crosses the boundary of a body.

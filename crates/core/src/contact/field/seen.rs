@@ -118,10 +118,8 @@ impl FieldContact {
 
     /// The same from a place of a face.
     fn behind(&self, (face, placed): (&FieldFace, &PlacedFace), xi: [f64; 2], boundary: &FacesInPlace) -> f64 {
-        let shape = face.shape(xi);
-        let [a, b] = shape.tangents(placed.nodes(), self.parts.surface.plane);
-        let ray = FaceRay { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
-        0.5 * boundary.depth(face.side, &ray, 1e-3 * a.norm())
+        let (ray, least) = FaceRay::inward((face, placed), xi, self.parts.surface.plane);
+        0.5 * boundary.depth(face.side, &ray, least)
     }
 
     /// How deep a patch may lie: of a surface that touches itself no deeper than half of the body behind its own middle, where that is less than

@@ -104,14 +104,20 @@ impl FieldSurface {
         surface
     }
 
-    /// Finds the smooth pieces and numbers the nodes of the field.
-    fn number(&mut self, mesh: &Mesh, held: &[BTreeSet<usize>]) {
-        let is_held = |nodes: &[usize]| held.iter().any(|group| nodes.iter().all(|node| group.contains(node)));
-        let axis = 1e-9 * mesh.size();
+    /// The faces around each node of the mesh at their corners, each with the number of the corner there.
+    fn around(&self) -> BTreeMap<usize, Vec<(usize, usize)>> {
         let mut around: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (f, face) in self.faces.iter().enumerate() {
             (0..face.corners()).for_each(|c| around.entry(face.corner_node(c)).or_default().push((f, c)));
         }
+        around
+    }
+
+    /// Finds the smooth pieces and numbers the nodes of the field.
+    fn number(&mut self, mesh: &Mesh, held: &[BTreeSet<usize>]) {
+        let is_held = |nodes: &[usize]| held.iter().any(|group| nodes.iter().all(|node| group.contains(node)));
+        let axis = 1e-9 * mesh.size();
+        let around = self.around();
         let normals: Vec<Vec3> = self.faces.iter().map(|face| self.middle_normal(face, &face.at_rest(mesh))).collect();
         let smooth = |f: usize, g: usize| {
             let cosine = normals[f].dot(normals[g]).clamp(-1.0, 1.0);
@@ -344,16 +350,14 @@ impl FieldSurface {
     /// Edges of the body at which two smooth pieces meet, where it is convex; in the plane its corners.
     pub fn edges(&self, mesh: &Mesh) -> Vec<BodyEdge> {
         let (mut edges, together) = (Vec::new(), if self.plane { 1 } else { 2 });
-        let mut around: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (f, face) in self.faces.iter().enumerate() {
-            (0..face.corners()).for_each(|corner| around.entry(face.corner_node(corner)).or_default().push(f));
-        }
         let middle = |face: &FieldFace| {
             let rest = face.at_rest(mesh);
             (face.shape(face.middle()).value(rest.nodes()), self.middle_normal(face, &rest))
         };
         let meet = |&[f, g]: &[usize; 2]| f < g && self.pieces[f] != self.pieces[g];
-        let pairs = around.values().flat_map(|faces| faces.iter().flat_map(|&f| faces.iter().map(move |&g| [f, g])));
+        let around = self.around();
+        let pairs =
+            around.values().flat_map(|all| all.iter().flat_map(|&(f, _)| all.iter().map(move |&(g, _)| [f, g])));
         for pair in pairs.filter(meet).collect::<BTreeSet<_>>() {
             let [own, other] = pair.map(|f| &self.faces[f]);
             let is_shared =

@@ -195,9 +195,94 @@ fn a_corner_is_felt_wherever_it_touches() {
         for (cells, fine) in [([18, 6], 6), ([19, 6], 6), ([19, 6], 24), ([45, 15], 6), ([44, 15], 9)] {
             let force = wedge(degrees, cells, fine);
             let ratios: Vec<f64> = force.iter().zip(&right).map(|(force, right)| force / right).collect();
-            assert!(ratios.iter().all(|ratio| (0.6..1.25).contains(ratio)), "{degrees} {cells:?} {fine}: {ratios:?}");
+            // A line load on a node is felt the stiffer the coarser the mesh, by a logarithm; a note says so of contacts on one point.
+            assert!(ratios.iter().all(|ratio| (0.6..1.5).contains(ratio)), "{degrees} {cells:?} {fine}: {ratios:?}");
             assert!(force.windows(2).all(|pair| pair[1] > pair[0]), "{force:?}");
         }
+    }
+}
+
+/// A corner that slides along a face presses along the normal of that, whichever of both bodies it belongs to and carries: forces followed the
+/// flanks of the corner, or were those of the place where the increment began, up to nothing.
+#[test]
+fn a_corner_slides_along_a_face() {
+    for (degrees, cells, fine) in [(45.0, [18, 6], 6), (30.0, [19, 6], 24), (8.0, [17, 6], 6)] {
+        let force = |roles: &str, [surface, target]: [&str; 2]| {
+            let parts = format!(
+                "mesh.part.w.rectangle = {{ from = [0.0, 0.0], to = [10.0, 10.0], cells = [{fine}, {fine}], cell = \"quad4\" }}
+                mesh.part.b.rectangle = {{ from = [-15.0, -10.0], to = [15.0, 0.0], cells = [{}, {}], cell = \"quad4\" }}",
+                cells[0], cells[1]
+            );
+            let rest = format!(
+                r#"
+material.h.elastic = {{ young = 20000.0, poisson = 0.3 }}
+material.s.elastic = {{ young = 1000.0, poisson = 0.3 }}
+body.w.material = "h"
+body.b.material = "s"
+group.tip = {{ of = "w.bottom", with = ["w.left"] }}
+group.grip = {{ of = "w.top", with = ["w.right"] }}
+contact.c = {{ surface = "{surface}", target = "{target}", law.coulomb.friction = 0.2{roles} }}
+[[step]]
+increments.count = 4
+displacement."b.bottom" = {{ x = 0.0, y = 0.0 }}
+displacement.grip = {{ x = 0.0, y = -0.1 }}
+[[step]]
+increments.count = 24
+displacement.grip = {{ x = 3.6, y = -0.1 }}
+"#
+            );
+            let (sin, cos) = f64::to_radians(degrees).sin_cos();
+            let model = moved(&parts, &rest, "w", |[x, y]| [x * cos - y * sin, x * sin + y * cos]);
+            let table = columns(&model, &run(&model));
+            let [x, y] = ["x", "y"].map(|axis| table[&format!("contact.c.force.{axis}")].clone());
+            let sign = if surface == "tip" { 1.0 } else { -1.0 };
+            let [missing, work] = ["missing", "external"].map(|kind| *table[&format!("energy.{kind}")].last().unwrap());
+            (x.iter().zip(&y).map(|(x, y)| [sign * x, sign * y]).collect::<Vec<_>>(), missing / work)
+        };
+        let given = ", roles = \"given\"";
+        let all = [force("", ["tip", "b.top"]), force(given, ["tip", "b.top"]), force(given, ["b.top", "tip"])];
+        for (forces, missing) in &all {
+            assert!(missing.abs() < 0.05, "{degrees}: {missing}");
+            let sliding = &forces[8..];
+            let mean = |axis: usize| sliding.iter().map(|force| force[axis]).sum::<f64>() / sliding.len() as f64;
+            // The face bends beneath the corner, and its normal with it.
+            assert!((-mean(0) / mean(1) / 0.2 - 1.0).abs() < 0.06, "{degrees}: {} {}", mean(0), mean(1));
+            assert!(sliding.iter().all(|force| (0.7..1.3).contains(&(force[1] / mean(1)))), "{degrees}: {sliding:?}");
+            let differ = |one: &[f64; 2], other: &[f64; 2]| (one[1] - other[1]).abs() > 2e-3 * mean(1);
+            assert!(!forces.iter().zip(&all[0].0).any(|(one, other)| differ(one, other)), "{degrees}: {all:?}");
+        }
+    }
+}
+
+/// Two cantilevers, of other meshes, clamped at the same end: held nodes bore what the facets of both differ by, nine times the force between the
+/// springs, and the clamps with them.
+#[test]
+fn what_is_clamped_together_bears_nothing_there() {
+    let force = |cells: [usize; 2]| {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.lower.rectangle = {{ from = [0.0, -1.0], to = [40.0, 0.0], cells = [{}, 2], cell = "quad4" }}
+mesh.part.upper.rectangle = {{ from = [0.0, 0.0], to = [40.0, 1.4], cells = [{}, 2], cell = "quad4" }}
+material.s.elastic = {{ young = 210e3, poisson = 0.0 }}
+body.lower.material = "s"
+body.upper.material = "s"
+contact.c = {{ surface = "upper.bottom", target = "lower.top", law.frictionless = {{}} }}
+[[step]]
+increments.count = 4
+displacement."lower.left" = {{ x = 0.0, y = 0.0 }}
+displacement."upper.left" = {{ x = 0.0, y = 0.0 }}
+traction."upper.right" = {{ y = -0.357142857 }}
+"#,
+            cells[0], cells[1]
+        );
+        forces(&deck)[1]
+    };
+    // A fine mesh of second degree: .164.
+    for cells in [[20, 17], [40, 33], [17, 20], [30, 30]] {
+        let force = force(cells);
+        assert!((0.1..0.5).contains(&force), "{cells:?}: {force}");
     }
 }
 

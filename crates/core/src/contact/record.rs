@@ -60,8 +60,10 @@ pub mod entry {
     pub const NEARER: usize = 25;
     /// Of a node of the field: pressure times irreversible slip over the part of its area that saw the target, with what tips rubbed there.
     pub const WORN: usize = 26;
+    /// Of a corner of a body: the direction in which it touches, as long as its part of the force is large.
+    pub const POINTS: usize = 27;
     /// Number of these values.
-    pub const COUNT: usize = 27;
+    pub const COUNT: usize = 30;
 }
 
 /// What is said of an overlap.

@@ -169,7 +169,11 @@ impl Model {
         } = parts;
         let bodies: Vec<_> = parts.bodies.into_iter().map(|(body, material)| (Arc::new(body), material)).collect();
         let contacts: Vec<_> = parts.contacts.into_iter().map(Arc::new).collect();
-        let field_contacts: Vec<_> = parts.field_contacts.into_iter().map(Arc::new).collect();
+        let know_steps = |mut contact: FieldContact| {
+            contact.know_steps(steps.iter().map(|step| &step.constraints));
+            Arc::new(contact)
+        };
+        let field_contacts: Vec<_> = parts.field_contacts.into_iter().map(know_steps).collect();
         let springs = parts.springs.len();
         let mut terms: Vec<Arc<dyn Term>> = bodies.iter().map(|(body, _)| body.clone() as Arc<dyn Term>).collect();
         terms.extend(contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));

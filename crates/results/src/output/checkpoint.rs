@@ -21,7 +21,7 @@ use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ASPERITY";
 /// Raised whenever the head or what the state holds changes.
-const VERSION: u32 = 21;
+const VERSION: u32 = 22;
 const HEAD: usize = 8 + 4 + 32 + 8 + 8 + 8 + 8;
 const SUM: usize = 32;
 

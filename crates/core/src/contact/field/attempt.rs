@@ -2,8 +2,9 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget};
+use super::corner::{CornerTouch, Pointing, WAYS};
 use super::cover::{FEET, Landing, Patch};
-use super::face::moved;
+use super::face::{FieldFace, ShapeFunctions, moved};
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::nearer::Nearer;
@@ -47,6 +48,8 @@ pub struct FieldAttempt<'a> {
     pub before: Configuration<'a>,
     /// Where the tips of the tool lay in it.
     pub tips_before: Vec<Option<TipFoot>>,
+    /// How corners of bodies touch.
+    pub pointings: Vec<Pointing>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
     /// Largest shares of dual functions at each node.
@@ -98,7 +101,7 @@ impl FieldAttempt<'_> {
         let list_touched =
             |now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>| self.list_touched(now, patch, nodes);
         let mut found = self.contact.find(
-            (&now, tips),
+            (&now, tips, &self.pointings),
             self.reach,
             (&self.depths, (&self.before, self.accepted)),
             Some(self.history),
@@ -118,6 +121,11 @@ impl FieldAttempt<'_> {
         if patch.tip.is_some() {
             let seen = self.before_tip(patch).map(|(face, _)| face);
             seen.into_iter().for_each(|face| nodes.extend_from_slice(&self.contact.parts.surface.faces[face].nodes));
+            return;
+        }
+        if let Some(touch) = patch.corner {
+            let seen = self.before_corner(touch).map(|(_, face, _)| face);
+            seen.into_iter().for_each(|face| nodes.extend_from_slice(&face.nodes));
             return;
         }
         let Some(faces) = self.contact.parts.target.as_faces() else { return };
@@ -179,6 +187,13 @@ impl FieldAttempt<'_> {
         Some((found.patch.face, found.patch.tip?))
     }
 
+    /// The face of the other side that a corner saw at the accepted state along the direction in which it points, by its number, and where.
+    fn before_corner(&self, touch: CornerTouch) -> Option<(usize, &FieldFace, ShapeFunctions)> {
+        let (own, longest) = (self.contact.corners[touch.number / WAYS].own, 2.0 * self.reach);
+        let (face, hit) = self.before.touched_by(touch, [-longest, longest])?;
+        Some((face, self.contact.face_of(!own, face)?, hit.shape))
+    }
+
     fn recall(&self, at: &NodesInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
         if patch.tip.is_some() {
             let (number, landing) = self.before_tip(patch)?;
@@ -187,6 +202,11 @@ impl FieldAttempt<'_> {
             let (now, tip) = (shape.value(at.placed(face).nodes()), at.tool.as_ref()?.place(landing.own));
             let face = Some((number, shape));
             return Some(Touched { now, slopes: [Vec3::zero(); 2], facing: None, face, tip });
+        }
+        if let Some(touch) = patch.corner {
+            let (number, face, shape) = self.before_corner(touch)?;
+            let (now, face) = (shape.value(at.placed(face).nodes()), Some((number, shape)));
+            return Some(Touched { now, slopes: [Vec3::zero(); 2], facing: None, face, tip: now });
         }
         let face = self.before.face(patch.face);
         let place = face.at(xi);
@@ -330,6 +350,11 @@ impl FieldAttempt<'_> {
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
         new[entry::NEARER] = self.nearer[slot].most;
+        if let Some(number) = slot.checked_sub(contact.nodal_slots())
+            && let Some(pointing) = self.pointings.get(number)
+        {
+            new[entry::POINTS..entry::POINTS + 3].copy_from_slice(&pointing.along.0);
+        }
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (here, slip) = (sums.y[0] + self.closure(slot), [sums.y[1], sums.y[2]]);
         let lift = self.lift(slot, &past, [here, slip[0], slip[1]]);
@@ -469,6 +494,9 @@ impl FieldAttempt<'_> {
         let (old, node) = (self.history.slot(slot), self.contact.node_of(slot));
         match node.filter(|_| old[entry::SEGMENT] < 0.0) {
             Some(node) => self.before.parted(node, slot % self.contact.pieces),
+            None if old[entry::SEGMENT] < 0.0 && self.contact.corner_of(slot).is_some() => {
+                self.pointings[slot - self.contact.nodal_slots()].gap.max(0.0)
+            }
             None => -(old[entry::PENETRATION] + self.closure(slot)),
         }
     }
@@ -632,7 +660,7 @@ impl Attempt for FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
-        self.refuse_passage(new)?;
+        self.refuse_passage(u, new)?;
         let goes_on = self.break_bonds(new)? || self.yield_tips(u) || self.improve(new, taken)?;
         if !goes_on {
             self.wear_beneath_tips(new);
@@ -728,8 +756,15 @@ impl FieldAttempt<'_> {
     }
 
     /// Refuses a state in which a node has closed on a side of a body behind which it lay: it has gone through the body, as where iterations push off a
-    /// block that stands on an edge.
-    fn refuse_passage(&self, new: &History) -> Result<(), Failure> {
+    /// block that stands on an edge. So has a corner that lies in a body and bears nothing.
+    fn refuse_passage(&self, u: &[f64], new: &History) -> Result<(), Failure> {
+        let bears = |number: usize| self.contact.bears(number, new);
+        if !self.contact.corners.is_empty()
+            && let Some(number) = Configuration::new(self.contact, u).unseen_corner(&self.before, bears)
+        {
+            let name = self.contact.name_of(self.contact.nodal_slots() + WAYS * number);
+            return Err(Failure::new(format!("{name} came to lie in the other body unseen")).of(FailureKind::Passage));
+        }
         let found = self.found();
         for slot in 0..self.contact.nodal_slots() {
             let closes = self.history.slot(slot)[entry::STATUS] == 0.0 && new.slot(slot)[entry::STATUS] > 0.0;

@@ -81,6 +81,35 @@ pub struct SeenPart {
 }
 
 impl Configuration<'_> {
+    /// Slots of nodes that a step holds, over places of a body that it holds too, beside faces that it does not hold: what touches there bears
+    /// what the facets of both sides differ by, which no motion can relieve. As multipliers of the mortar method at nodes whose displacement
+    /// is prescribed, theirs are left to the nodes beside them (Wohlmuth, SIAM J. Numer. Anal. 38, 2000).
+    pub(super) fn held(&self, step: usize) -> Vec<bool> {
+        let (contact, surface) = (self.contact, &self.contact.parts.surface);
+        let mut out = vec![false; contact.slots()];
+        let held = contact.held.get(step).filter(|held| !held.is_empty());
+        let (Some(held), TargetInPlace::Faces(target), Some(faces)) =
+            (held, &self.target, contact.parts.target.as_faces())
+        else {
+            return out;
+        };
+        let is_held = |nodes: &[usize]| nodes.iter().all(|node| held.contains(node));
+        for (number, node) in surface.nodes.iter().enumerate().filter(|(_, node)| held.contains(&node.node)) {
+            let moves = node.support.iter().any(|&(f, _)| !is_held(&surface.faces[f].nodes));
+            let x = node.support.first().map(|&(f, corner)| self.placed[f].nodes()[corner]);
+            let Some(x) = x.filter(|_| moves) else { continue };
+            let size = contact.size_at(contact.slot(number, 0));
+            for n in [self.normals[number], -self.normals[number]] {
+                target.meet(&FaceRay { x, n }, [0.0, size], |face, hit| {
+                    let nodes = faces.surface.faces[face].nodes.iter().zip(hit.shape.n);
+                    let free = nodes.filter(|(node, _)| !held.contains(node)).map(|(_, n)| n.abs()).fold(0.0, f64::max);
+                    out[contact.slot(number, contact.piece_of(face))] |= free < BESIDE;
+                });
+            }
+        }
+        out
+    }
+
     /// The patches of a face that look at it, within `reach` or nearly so: for each smooth piece of a tool those that see it, for each
     /// face of a body one.
     pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<SeenPart> {

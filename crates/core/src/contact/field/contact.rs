@@ -1,5 +1,6 @@
 //! What a field is made of: its surface, what that may touch, the law and how it is computed.
 
+use super::corner::{BodyCorner, WAYS};
 use super::cover::{FEET, Patch};
 use super::face::FieldFace;
 use super::faces::TargetFaces;
@@ -8,8 +9,9 @@ use super::tool::RigidTool;
 use crate::contact::record::largest_penetration;
 use crate::contact::{ContactParts, ContactSides};
 use crate::mesh::Mesh;
-use crate::system::{Dofs, History};
+use crate::system::{Constraints, Dofs, History, Row};
 use crate::tool::{self, ProfileTool, Tip};
+use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -66,8 +68,12 @@ pub struct FieldContact {
     pub(super) roles: FieldRoles,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
-    /// Convex edges of a target of bodies.
+    /// Convex edges of a target of bodies, in space,
     pub(super) edges: Vec<BodyEdge>,
+    /// and convex corners of both sides, in the plane.
+    pub(super) corners: Vec<BodyCorner>,
+    /// Nodes of both sides all of whose displacements are prescribed, step by step.
+    pub(super) held: Vec<BTreeSet<usize>>,
     sizes: Vec<f64>,
     /// Undeformed areas of the nodes.
     pub(super) areas: Vec<f64>,
@@ -101,17 +107,38 @@ impl FieldContact {
             }
             FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
         };
-        let edges = target.as_faces().map_or(Vec::new(), |faces| faces.surface.edges(mesh));
-        Self { sides, roles, pieces, edges, sizes, areas }
+        let (mut edges, mut corners) = (Vec::new(), Vec::new());
+        if let Some(faces) = target.as_faces() {
+            if surface.plane {
+                corners = BodyCorner::all(surface, mesh, true);
+                corners.extend(BodyCorner::all(&faces.surface, mesh, false).into_iter().filter(|_| !roles.itself));
+            } else {
+                edges = faces.surface.edges(mesh);
+            }
+        }
+        Self { sides, roles, pieces, edges, corners, held: Vec::new(), sizes, areas }
+    }
+
+    /// Tells it which unknowns the steps prescribe.
+    pub fn know_steps<'a>(&mut self, steps: impl Iterator<Item = &'a Constraints>) {
+        let (dofs, target) = (&self.parts.dofs, self.parts.target.as_faces().map(|faces| &faces.surface));
+        let faces = self.parts.surface.faces.iter().chain(target.into_iter().flat_map(|surface| &surface.faces));
+        let nodes: BTreeSet<usize> = faces.flat_map(|face| face.nodes.iter().copied()).collect();
+        let held = |constraints: &Constraints| {
+            let is_held =
+                |node: &&usize| dofs.displacements(**node).all(|dof| matches!(constraints.row(dof), Row::Fixed));
+            nodes.iter().filter(is_held).copied().collect()
+        };
+        self.held = steps.map(held).collect();
     }
 
     /// The largest penetration of a closed node in an accepted state.
     pub fn largest_penetration(&self, history: &History) -> f64 {
         largest_penetration(history, self.slots())
     }
-    /// Number of stencils: those of the nodes, then those of the feet of the tool's tips.
+    /// Number of stencils: those of the nodes, then those of the feet of a tool's tips, or of corners of bodies.
     pub(super) fn slots(&self) -> usize {
-        self.nodal_slots() + FEET * self.tips().len()
+        self.nodal_slots() + FEET * self.tips().len() + WAYS * self.corners.len()
     }
     /// Tips of the tool.
     pub(super) fn tips(&self) -> &[Tip] {
@@ -166,7 +193,8 @@ impl FieldContact {
     }
     /// Size of the faces at the node of a slot, a length.
     pub(super) fn size_at(&self, slot: usize) -> f64 {
-        self.node_of(slot).map_or(self.longest, |node| self.sizes[node])
+        let beside = || self.corner_of(slot).map_or(self.longest, |corner| corner.size);
+        self.node_of(slot).map_or_else(beside, |node| self.sizes[node])
     }
 
     /// Whether a face of the surface may touch a face of the target. Where a surface touches itself, of two faces the one

@@ -5,6 +5,7 @@
 //! normal of the surface passes through the vertex, `(x_V - x(xi)) . e_S(xi) = 0`; of a tool, where the surface crosses the
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
+use super::corner::CornerTouch;
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions, WHOLE};
 use super::space::SeenNodes;
 use super::surface::FieldSurface;
@@ -30,13 +31,17 @@ pub struct Patch {
     pub vertices: [bool; CORNERS],
     /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.
     pub tip: Option<Landing>,
+    /// Part of what each corner of the face stands for that it bears, less at a corner of the body where the face rises from what it sees.
+    pub left: [f64; CORNERS],
+    /// Where it is that of a corner of a body.
+    pub corner: Option<CornerTouch>,
 }
 
 impl Patch {
     /// One of a whole face that sees a piece or a face of the target.
     pub fn whole(face: usize, target: usize) -> Self {
-        let (seen, dual, vertices, tip) = Default::default();
-        Self { face, target, ends: [None; 2], near: WHOLE, seen, dual, vertices, tip }
+        let (seen, dual, vertices, tip, corner) = Default::default();
+        Self { face, target, ends: [None; 2], near: WHOLE, seen, dual, vertices, tip, left: [1.0; CORNERS], corner }
     }
 
     /// Numbers of the corners at an end of the surface that see the target here.

@@ -155,32 +155,35 @@ impl TargetFaces {
 
     /// Where a ray meets face `number`, placed so, or what continues it.
     pub fn project(&self, number: usize, placed: &PlacedFace, ray: &FaceRay) -> Option<FaceProjection> {
-        let face = &self.surface.faces[number];
-        let (mut s, mut gap) = (face.middle(), 0.0);
-        for _ in 0..ITERATIONS {
-            let here = self.at(number, placed, s, gap);
-            let r = ray.x + ray.n * gap - here.y;
-            let (dg, ds) = here.follow(ray.n, r);
-            let size = here.tangents[0].norm();
-            gap += dg;
-            (0..2).for_each(|a| s[a] += ds[a]);
-            if !s.iter().all(|s| s.abs() < ASTRAY) || !gap.is_finite() {
-                return None;
-            }
-            // The steps of Newton's method are squared: the next would be lost in rounding.
-            if ds.iter().all(|ds| ds.abs() < SETTLED) && dg.abs() <= SETTLED * size {
-                return Some(self.at(number, placed, s, gap));
-            }
-        }
-        // A ray that passes by a curved face has no foot on it, and the iteration wanders.
-        None
+        project((&self.surface.faces[number], placed), ray, self.surface.plane)
     }
+}
 
-    fn at(&self, number: usize, placed: &PlacedFace, s: [f64; 2], gap: f64) -> FaceProjection {
-        let shape = self.surface.faces[number].extended_shape(s);
-        let tangents = shape.tangents(placed.nodes(), self.surface.plane);
-        FaceProjection { gap, s, shape, y: shape.value(placed.nodes()), tangents }
+/// Where a ray meets a face, or what continues it.
+pub fn project(of: (&FieldFace, &PlacedFace), ray: &FaceRay, plane: bool) -> Option<FaceProjection> {
+    let (mut s, mut gap) = (of.0.middle(), 0.0);
+    let at = |s: [f64; 2], gap: f64| {
+        let shape = of.0.extended_shape(s);
+        let tangents = shape.tangents(of.1.nodes(), plane);
+        FaceProjection { gap, s, shape, y: shape.value(of.1.nodes()), tangents }
+    };
+    for _ in 0..ITERATIONS {
+        let here = at(s, gap);
+        let r = ray.x + ray.n * gap - here.y;
+        let (dg, ds) = here.follow(ray.n, r);
+        let size = here.tangents[0].norm();
+        gap += dg;
+        (0..2).for_each(|a| s[a] += ds[a]);
+        if !s.iter().all(|s| s.abs() < ASTRAY) || !gap.is_finite() {
+            return None;
+        }
+        // The steps of Newton's method are squared: the next would be lost in rounding.
+        if ds.iter().all(|ds| ds.abs() < SETTLED) && dg.abs() <= SETTLED * size {
+            return Some(at(s, gap));
+        }
     }
+    // A ray that passes by a curved face has no foot on it, and the iteration wanders.
+    None
 }
 
 fn bounds(placed: &PlacedFace) -> BoundingBox {

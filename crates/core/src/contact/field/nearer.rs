@@ -6,7 +6,7 @@
 //! bends it. A node therefore closes when the target touches the part of its faces that is nearer to it than to other nodes: to its
 //! penetration is added by how much the least gap there is less than the mean, so far as the gap is not linear.
 //!
-//! Where an edge of a body touches, at which two of its smooth pieces meet, the gap of each is linear and that of both is not: it is that of
+//! Where an edge of a body in space touches (in the plane its corners are [`corner`](super::corner)s), at which two of its smooth pieces meet, the gap of each is linear and that of both is not: it is that of
 //! both which is looked at, and what the target touches first of the piece of a slot.
 //!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
@@ -163,20 +163,17 @@ impl Configuration<'_> {
         let (TargetInPlace::Faces(faces), Some(target)) = (&self.target, self.contact.parts.target.as_faces()) else {
             return;
         };
-        let (surface, plane) = (&target.surface, face.plane);
+        let surface = &target.surface;
         let [here, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
         let farthest = range[1] + 4.0 * (middle - here).norm();
         let seen = |edge: &&BodyEdge| edge.faces.iter().all(|&other| self.contact.may_touch(number, other));
         for edge in self.contact.edges_of(piece).filter(seen) {
             let [from, to] = edge.ends.map(|corner| faces.corners(edge.faces[0])[corner]);
-            for x in PLACES.iter().take(if plane { 1 } else { PLACES.len() }).map(|t| from + (to - from) * *t) {
+            for x in PLACES.map(|t| from + (to - from) * t) {
                 if (x - here).norm() > farthest {
                     continue;
                 }
-                let xi = match face.corners() {
-                    [a, b] => [2.0 * (x - *a).dot(*b - *a) / (*b - *a).dot(*b - *a) - 1.0, 0.0],
-                    corners => foot(corners, x),
-                };
+                let xi = foot(face.corners(), x);
                 if !face.face.holds(xi, OVER) {
                     continue;
                 }

@@ -24,6 +24,8 @@ pub enum Sight {
     Tool(NearestPoint),
     /// A tip of a tool.
     Tip,
+    /// A face of a body, by a corner of either.
+    Corner(FaceProjection),
 }
 
 /// The target's material point that a place of the surface saw at the accepted state, as it is now.
@@ -225,7 +227,7 @@ impl PatchInPlace<'_> {
                 let y = carried + hit.tangents[0] * s[0] + hit.tangents[1] * s[1];
                 (gap, dn, s, y)
             }
-            (Sight::Tool(_), None) | (Sight::Tip, _) => (0.0, Vec3::zero(), [0.0; 2], Vec3::zero()),
+            (Sight::Tool(_), None) | (Sight::Tip | Sight::Corner(_), _) => (0.0, Vec3::zero(), [0.0; 2], Vec3::zero()),
         }
     }
 

@@ -81,9 +81,10 @@ impl PatchPoints {
         self.points.clear();
         self.rates.clear();
         self.differentiated = false;
-        self.meets = match patch.tip {
-            Some(landing) => at.tip_point((patch, landing), recall, &mut self.points).is_some(),
-            None => self.look(&PatchInPlace::new(at, patch), at, recall).is_some(),
+        self.meets = match (patch.tip, patch.corner) {
+            (Some(landing), _) => at.tip_point((patch, landing), recall, &mut self.points).is_some(),
+            (_, Some(touch)) => at.corner_point((patch, touch), recall, &mut self.points).is_some(),
+            (None, None) => self.look(&PatchInPlace::new(at, patch), at, recall).is_some(),
         };
     }
 
@@ -126,6 +127,10 @@ impl PatchPoints {
         let columns = at.columns(patch);
         if let Some(landing) = patch.tip {
             at.tip_rates((patch, landing), &self.points, &columns, &mut self.rates);
+            return;
+        }
+        if let Some(touch) = patch.corner {
+            at.corner_rates((patch, touch), &self.points, &columns, &mut self.rates);
             return;
         }
         let in_place = PatchInPlace::new(at, patch);

@@ -124,8 +124,8 @@ impl FieldContact {
 
     /// The record of a node that sees nothing.
     fn unseen(&self, slot: usize, u: &[f64], values: &[f64]) -> ContactRecord {
-        let (position, outward, edge) = match self.node_of(slot) {
-            Some(node) => {
+        let (position, outward, edge) = match (self.node_of(slot), self.corner_of(slot)) {
+            (Some(node), _) => {
                 let FieldNode { node: number, support, .. } = &self.parts.surface.nodes[node];
                 let position = moved(self.parts.mesh.points[*number], &u[self.parts.dofs.displacements(*number)]);
                 let normal = self
@@ -134,7 +134,14 @@ impl FieldContact {
                     .normal(node, |f| self.parts.surface.faces[f].placed(&self.parts.mesh, &self.parts.dofs, u));
                 (position, normal.unit, support.first().map_or(0, |(face, _)| *face))
             }
-            None => {
+            (_, Some(corner)) => {
+                let position =
+                    moved(self.parts.mesh.points[corner.node], &u[self.parts.dofs.displacements(corner.node)]);
+                let [x, y, z] = std::array::from_fn(|axis| values[entry::POINTS + axis]);
+                let along = Vec3::new(x, y, z).unit() * if corner.own { 1.0 } else { -1.0 };
+                (position, along, values[entry::SEGMENT].max(0.0) as usize)
+            }
+            (None, None) => {
                 let tip = &self.tips()[self.tip_of(slot)];
                 let tool = self.parts.target.as_tool().map(|rigid| rigid.at(u));
                 let place = |tool: ToolInPlace| (tool.place(tip.foremost()), -tool.rotate(tip.outward), 0);

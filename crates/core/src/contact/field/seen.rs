@@ -2,6 +2,7 @@
 
 use super::configuration::{Configuration, SeenPart, TargetInPlace};
 use super::contact::FieldContact;
+use super::corner::{CornerTouch, Pointing, WAYS};
 use super::cover::Patch;
 use super::face::{FieldFace, PlacedFace};
 use super::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE};
@@ -18,7 +19,7 @@ impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths` of the accepted state `before`.
     pub(super) fn find(
         &self,
-        (now, tips): (&Configuration, Vec<Option<TipFoot>>),
+        (now, tips, pointings): (&Configuration, Vec<Option<TipFoot>>, &[Pointing]),
         reach: f64,
         (depths, before): (&[f64], (&Configuration, &[f64])),
         history: Option<&History>,
@@ -38,13 +39,15 @@ impl FieldContact {
         let boundary = OnceCell::new();
         let whole = || boundary.get_or_init(|| self.boundary.in_place(self.site(), before.1));
         for (number, &most) in depths.iter().enumerate() {
-            for seen in now.patches(number, reach, &mut near) {
+            for mut seen in now.patches(number, reach, &mut near) {
+                seen.patch.left = before.0.left(&seen.patch);
                 if history.is_some_and(|history| self.is_beside(&seen, (before.0, history))) {
                     continue;
                 }
                 let depth = self.depth_at(&seen, most, (before.0, &whole));
                 let piece = self.piece_of(seen.patch.target);
-                for corner in 0..self.parts.surface.faces[number].corners() {
+                let bears = |corner: &usize| seen.patch.left[*corner] > 0.0;
+                for corner in (0..self.parts.surface.faces[number].corners()).filter(bears) {
                     let slot = self.slot(self.parts.surface.field[number][corner], piece);
                     see(slot, (patches.len(), corner), [seen.middle, seen.least], depth);
                 }
@@ -57,6 +60,16 @@ impl FieldContact {
                 see(self.nodal_slots() + number, (patches.len(), 0), [found.gap; 2], depth);
                 patches.push(FoundPatch { patch: found.patch, place: found.patch.near, nodes: Vec::new() });
             }
+        }
+        for (k, (corner, ways)) in self.corners.iter().zip(pointings.chunks(WAYS)).enumerate() {
+            let touch = |(way, on): (usize, &Pointing)| CornerTouch { number: k * WAYS + way, along: on.along };
+            let touches = ways.iter().enumerate().map(touch);
+            let sees = |touch: CornerTouch| Some((touch, now.touched_by(touch, [-corner.size, reach])?));
+            let Some((touch, (face, hit))) = touches.filter_map(sees).next() else { continue };
+            let (patch, place) = self.corner_patch(touch, (face, hit.s));
+            let slot = self.nodal_slots() + touch.number;
+            see(slot, (patches.len(), 0), [hit.gap; 2], depths[patch.face].max(corner.size));
+            patches.push(FoundPatch { patch, place, nodes: Vec::new() });
         }
         for (support, least) in supports.iter_mut().zip(least) {
             if least > reach {
@@ -199,7 +212,8 @@ impl FieldContact {
             Some(history) => now.tips(self.longest, None, self.known_feet(history)),
             None => now.tips(self.longest, Some(&[]), |_| None),
         };
-        self.find((&now, tips), reach, (&depths, (&now, u)), history, |_, _, _| {})
+        let pointings = history.map_or(Vec::new(), |history| self.known_pointings(history));
+        self.find((&now, tips, &pointings), reach, (&depths, (&now, u)), history, |_, _, _| {})
     }
 
     /// Values of a stencil's unknowns.

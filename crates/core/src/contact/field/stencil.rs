@@ -171,10 +171,19 @@ impl<'a> StencilInPlace<'a> {
         self.found.supports[self.slot].through
     }
 
-    /// What its history knows it by: of a foot of a tip the face on which that lies.
+    /// What its history knows it by: of a foot of a tip, or a corner, the face on which that lies; of a node over a body a face that it sees.
     pub fn segment(&self) -> f64 {
-        let tip = self.patches().find(|(patch, _)| patch.tip.is_some());
-        tip.map_or(0.0, |(patch, _)| patch.face as f64)
+        let over_faces = self.at.contact.parts.target.as_faces().is_some();
+        self.patches().next().map_or(0.0, |(patch, _)| match patch {
+            Patch { tip: Some(_), face, .. } | Patch { corner: Some(_), face, .. } => *face as f64,
+            _ => {
+                if over_faces {
+                    patch.target as f64
+                } else {
+                    0.0
+                }
+            }
+        })
     }
 
     /// The faces of its patches.
@@ -194,7 +203,7 @@ impl<'a> StencilInPlace<'a> {
         sums.points.iter().flat_map(move |&NodePoint { of: (number, k), weight, .. }| {
             let (patch, point) = (patches[number].0, &sums.patches[number].points[k]);
             let seen = parts.target.as_faces().zip(match &point.sight {
-                Sight::Face(hit) => Some(hit.s),
+                Sight::Face(hit) | Sight::Corner(hit) => Some(hit.s),
                 _ => None,
             });
             let seen = seen.map(|(faces, s)| (&faces.surface.faces[patch.target], s));
@@ -254,6 +263,7 @@ impl<'a> StencilInPlace<'a> {
         let (line, surface) = (self.line(), &self.at.contact.parts.surface);
         for &(number, corner) in &self.found.supports[self.slot].patches {
             let patch = &self.found.patches[number];
+            let left = patch.patch.left[corner];
             sums.starts.push(sums.columns.len());
             self.list_columns((&patch.nodes, line), &mut sums.columns);
             let columns = &sums.columns[sums.starts[sums.patches.len()]..];
@@ -284,11 +294,12 @@ impl<'a> StencilInPlace<'a> {
                 let twist = turn.map(|turn| turn.twist(point, e, &middle));
                 let way = twist.map_or(point.v, |twist| twist.way);
                 let functions = [&point.functions, &point.dual];
-                let [weight, dual] = functions.map(|functions| point.weight * functions.n[corner]);
+                let [weight, dual] = functions.map(|functions| left * point.weight * functions.n[corner]);
                 let (of, slip) = ((sums.patches.len(), k), e.map(|e| e.dot(way)));
                 sums.points.push(NodePoint { of, weight, shift: -weight, dual, e, slip });
                 if derivatives {
-                    let functions = functions.map(|functions| (functions.n[corner], functions.dn[corner]));
+                    let functions = functions
+                        .map(|functions| (left * functions.n[corner], functions.dn[corner].map(|slope| left * slope)));
                     let (of_point, node, turn) = ((point, points.rates(k)), (&at, line, functions, e), turn.zip(twist));
                     let turn = turn.map(|(carried, twist)| (carried, twist, &middle));
                     differentiate(of_point, node, turn, columns.len(), &mut sums.rates);
@@ -364,7 +375,7 @@ impl<'a> StencilInPlace<'a> {
                 };
                 push(&own, &point.shape.n, -1.0);
                 match (&point.sight, &self.at.tool) {
-                    (Sight::Face(hit), None) => push(&seen, &hit.shape.n, 1.0),
+                    (Sight::Face(hit) | Sight::Corner(hit), None) => push(&seen, &hit.shape.n, 1.0),
                     (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
                         let received = tool.receive(point.y, f);
                         let first = self.at.nodes.len() * axes;
@@ -426,7 +437,7 @@ impl<'a> StencilInPlace<'a> {
                 let (on_own, on_seen) = block.split_at_mut(own.len() * axes * m);
                 push(on_own, &point.shape, false);
                 match (&point.sight, &self.at.tool) {
-                    (Sight::Face(hit), None) => push(on_seen, &hit.shape, true),
+                    (Sight::Face(hit) | Sight::Corner(hit), None) => push(on_seen, &hit.shape, true),
                     (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
                         for (((node, rate), turned), &j) in each().zip(turned.iter()).zip(columns) {
                             let along = j.checked_sub(first).map(|along| (along, &spin_rates[along]));

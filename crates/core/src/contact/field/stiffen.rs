@@ -6,6 +6,7 @@
 
 use super::attempt::FieldAttempt;
 use super::contact::FieldContact;
+use super::corner::WAYS;
 use crate::contact::RaisedPenalty;
 use crate::contact::record::entry;
 use crate::system::History;
@@ -82,7 +83,8 @@ impl FieldAttempt<'_> {
         let raised = options.raised.filter(|_| !self.law.is_compliant() && taken.iter().all(|taken| *taken > 0.0));
         let Some(RaisedPenalty { from, most }) = raised else { return false };
         // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
-        let mut tips = closed(new, self.contact.nodal_slots()..self.contact.slots()).peekable();
+        let of_tips = self.contact.slots() - WAYS * self.contact.corners.len();
+        let mut tips = closed(new, self.contact.nodal_slots()..of_tips).peekable();
         if tips.peek().is_some() {
             let sunk = |(slot, values): (usize, &[f64])| {
                 let radius = self.contact.tips()[self.contact.tip_of(slot)].radius;

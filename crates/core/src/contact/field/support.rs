@@ -54,14 +54,14 @@ impl FieldSearch {
         Self { number: SEARCHES.fetch_add(1, Ordering::Relaxed), patches, supports }
     }
 
-    /// The faces of the patches of a stencil, each once, with the node's number among their corners; none for a tip.
+    /// The faces of the patches of a stencil, each once, with the node's number among their corners; none for a tip or a corner.
     pub fn faces(&self, slot: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let patches = &self.supports[slot].patches;
         let patch = |&(number, _): &(usize, usize)| &self.patches[number].patch;
         let fresh = move |i: usize, face: usize| !patches[..i].iter().any(|other| patch(other).face == face);
         let faces = patches.iter().enumerate().map(move |(i, of)| (i, patch(of), of.1));
         faces
-            .filter(move |(i, patch, _)| patch.tip.is_none() && fresh(*i, patch.face))
+            .filter(move |(i, patch, _)| patch.tip.is_none() && patch.corner.is_none() && fresh(*i, patch.face))
             .map(|(_, patch, c)| (patch.face, c))
     }
 }

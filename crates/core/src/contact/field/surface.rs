@@ -371,6 +371,14 @@ impl FieldSurface {
         edges
     }
 
+    /// The largest angle of a face to those beside it of its smooth piece before any motion.
+    pub fn bend(&self, face: usize, mesh: &Mesh) -> f64 {
+        let normal = |f: usize| self.middle_normal(&self.faces[f], &self.faces[f].at_rest(mesh));
+        let nodes = self.field[face][..self.faces[face].corners()].iter();
+        let beside = nodes.flat_map(|&node| self.nodes[node].support.iter().map(|&(other, _)| other));
+        beside.map(|other| normal(face).dot(normal(other)).clamp(-1.0, 1.0).acos()).fold(0.0, f64::max)
+    }
+
     /// Size of a face, a length: its chord, or the root of its area.
     pub fn size(&self, face: usize, mesh: &Mesh) -> f64 {
         let face = &self.faces[face];

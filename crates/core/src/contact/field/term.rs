@@ -146,6 +146,7 @@ impl Term for FieldContact {
         let normal = self.kept_penalty(history);
         let (far, depths) = (reach(self.longest, &accepted.last_change), self.depths(&accepted.u));
         let (bonds, mut nearer) = (self.bonds(&*law, history, normal), before.nearer(history, (far, &depths)));
+        let before_held = before.held(at.step);
         // What is glued does not begin to touch.
         nearer.iter_mut().zip(&bonds).filter(|(_, bond)| **bond).for_each(|(nearer, _)| *nearer = Nearer::default());
         Ok(Box::new(FieldAttempt {
@@ -153,6 +154,7 @@ impl Term for FieldContact {
             history,
             accepted: &accepted.u,
             tips_before: self.tips_before(&before, history),
+            pointings: before.pointings(history, far),
             duals: self.dual_limits(&before.placed, history),
             nearer,
             before,
@@ -170,7 +172,7 @@ impl Term for FieldContact {
             law,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
-            idle: self.idle(history),
+            idle: self.idle(history).into_iter().zip(before_held).map(|(idle, held)| idle || held).collect(),
             bore: (0..self.slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0),
             far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
@@ -180,9 +182,10 @@ impl Term for FieldContact {
     }
 
     fn name_of(&self, slot: usize) -> String {
-        match self.node_of(slot) {
-            Some(node) => format!("node {} of contact '{}'", self.parts.surface.nodes[node].node, self.parts.name),
-            None => format!("tip {} of the tool of contact '{}'", self.tip_of(slot) + 1, self.parts.name),
+        match (self.node_of(slot), self.corner_of(slot)) {
+            (Some(node), _) => format!("node {} of contact '{}'", self.parts.surface.nodes[node].node, self.parts.name),
+            (_, Some(corner)) => format!("corner at node {} of contact '{}'", corner.node, self.parts.name),
+            (None, None) => format!("tip {} of the tool of contact '{}'", self.tip_of(slot) + 1, self.parts.name),
         }
     }
 

@@ -1,0 +1,458 @@
+//! A corner of a body over a face of another, in the plane: node-to-segment contact (Hallquist, Goudreau & Benson, Comput. Meth. Appl.
+//! Mech. Eng. 51, 1985; Wriggers, Computational Contact Mechanics, 2006) beside the mortar field (Farah, Wall & Popp, Int. J. Numer.
+//! Meth. Eng. 114, 2018).
+//!
+//! The field presses along the normals of the surface, and its gaps are means over faces. A corner that touches by itself, both of its flanks
+//! rising from what it touches, presses along the normal of that, whichever of both bodies it belongs to. It is a stencil of its own, with
+//! the area around it: with `c` the corner and `d` the direction against the outward normal of the face that it touches, the gap is the
+//! distance to that along `d`.
+//!
+//! A flank that lies flat belongs to the field. Between two small angles of the lower flank to the face the corner takes over, and what it has the field
+//! does not have at the node. This share and the direction are those of the accepted state, and stay through an increment.
+
+use super::column::PointColumn;
+use super::configuration::{Configuration, TargetInPlace};
+use super::contact::FieldContact;
+use super::cover::Patch;
+use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::faces::{FaceProjection, FaceRay, LEAST_COSINE, project};
+use super::nodes::NodesInPlace;
+use super::point::{PatchPoint, PointRates, Sight, smoothstep};
+use super::points::Recall;
+use super::surface::FieldSurface;
+use crate::contact::record::entry;
+use crate::mesh::Mesh;
+use crate::system::History;
+use crate::tensor::{BoundingBox, Vec3};
+
+/// A convex corner of one of the two sides of a contact of bodies.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyCorner {
+    /// Whether it is one of the surface, or else of the target.
+    pub own: bool,
+    /// The faces that meet in it, and the number of their corner there.
+    pub flanks: [(usize, usize); 2],
+    /// The node of the mesh.
+    pub node: usize,
+    /// Undeformed area of both flanks around it.
+    area: f64,
+    /// The length of the shorter of them.
+    pub size: f64,
+    /// The angle by which they bend beside it before any motion.
+    bend: f64,
+}
+
+impl BodyCorner {
+    /// Those of a surface.
+    pub fn all(surface: &FieldSurface, mesh: &Mesh, own: bool) -> Vec<Self> {
+        let of = |edge: &super::surface::BodyEdge| {
+            let node = surface.faces[edge.faces[0]].corner_node(edge.ends[0]);
+            let at = |f: usize| {
+                let face = &surface.faces[f];
+                (f, (0..face.corners()).find(|&corner| face.corner_node(corner) == node).unwrap_or(0))
+            };
+            let flanks = edge.faces.map(at);
+            let area = |(f, corner): (usize, usize)| {
+                surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
+            };
+            let [area, size, bend] = [
+                flanks.map(area).iter().sum(),
+                edge.faces.map(|f| surface.size(f, mesh)).into_iter().fold(f64::INFINITY, f64::min),
+                edge.faces.map(|f| surface.bend(f, mesh)).into_iter().fold(0.0, f64::max),
+            ];
+            Self { own, flanks, node, area, size, bend }
+        };
+        if surface.plane { surface.edges(mesh).iter().map(of).collect() } else { Vec::new() }
+    }
+}
+
+/// How a corner touches in an increment: the face before which it lies, or, where it does not see that any more, one beyond whose end it lies, as
+/// a corner that goes past another.
+pub const WAYS: usize = 2;
+
+/// One of them.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Pointing {
+    /// From it to the other body, a unit vector times its share of the force; zero where it does not touch by itself.
+    pub along: Vec3,
+    /// The gap at the accepted state.
+    pub gap: f64,
+}
+
+/// A face that a corner may touch: where, how far away that is, its normal, and the angles between which a flank rises from it.
+#[derive(Clone, Copy)]
+struct Touchable {
+    face: usize,
+    s: [f64; 2],
+    gap: f64,
+    n: Vec3,
+    range: [f64; 2],
+}
+
+/// A corner in a patch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerTouch {
+    /// The number of the corner times [`WAYS`], and that of the way.
+    pub number: usize,
+    /// As that of a [`Pointing`].
+    pub along: Vec3,
+}
+
+/// Angles, beyond those by which both sides bend, of the lower flank to what it touches between which a corner takes over from the field: a block that
+/// lies flat is strained by less than the first.
+const RISES: [f64; 2] = [0.02, 0.08];
+/// Part of a flank that lies flat on what it touches and then ends over it between which the field has too little of it to bear,
+const ENDS: [f64; 2] = [0.1, 0.5];
+/// and at how many places that is looked at.
+const PLACES: usize = 8;
+/// How far past the end of a face, in reference coordinates, its normal may pass through a corner: below the bottom of a valley pass none.
+const BESIDE: f64 = 0.1;
+/// The same of the direction of a corner, by rounding.
+const ROUNDED: f64 = 1e-6;
+/// Part of a face next to the bottom of a valley over which its normal turns to that of both faces there.
+const BOTTOM: f64 = 0.1;
+/// Gap over the size of the flanks by which another face may be farther and still say that a flank lies flat.
+const ALIKE: f64 = 0.05;
+/// Depth over the size of the flanks from which on a corner that bears nothing lies in a body by drawing or because it came in elsewhere.
+const SUNK: f64 = 0.02;
+/// Depth over that size in which a corner is looked for.
+const DEEPEST: f64 = 1.0;
+/// Distance over that size from the plane of a face beyond whose end a corner lies up to which it may come onto that.
+const PAST: f64 = 0.3;
+/// Reference coordinate of a place so far beyond.
+const FARTHEST: f64 = 1.0;
+/// Depth over that size to which no corner comes unseen in an increment.
+const UNSEEN: f64 = 0.1;
+
+impl Configuration<'_> {
+    /// A face of a side, and where it is: of the surface, or else of the target.
+    fn of_side(&self, own: bool, f: usize) -> Option<(&FieldFace, &PlacedFace)> {
+        let placed = match &self.target {
+            _ if own => &self.placed[f],
+            TargetInPlace::Faces(target) => target.placed(f),
+            TargetInPlace::Tool(_) => return None,
+        };
+        Some((self.contact.face_of(own, f)?, placed))
+    }
+
+    fn place_of(&self, corner: &BodyCorner) -> Option<Vec3> {
+        let (face, at) = corner.flanks[0];
+        Some(self.of_side(corner.own, face)?.1.nodes()[at])
+    }
+
+    /// Calls `take` with the faces of the other side that are within `reach` of a corner and may touch it.
+    fn across(&self, corner: &BodyCorner, c: Vec3, reach: f64, mut take: impl FnMut(usize, &FieldFace, &PlacedFace)) {
+        let Some(faces) = self.contact.parts.target.as_faces() else { return };
+        let flank = corner.flanks[0].0;
+        let count = if corner.own { faces.surface.faces.len() } else { self.placed.len() };
+        for f in 0..count {
+            let Some((face, placed)) = self.of_side(!corner.own, f) else { continue };
+            let is_near = BoundingBox::of(placed.nodes().iter().copied()).distance(c) <= reach;
+            let touches = || if corner.own { self.contact.may_meet(flank, f) } else { self.contact.may_meet(f, flank) };
+            if is_near && !face.nodes.contains(&corner.node) && touches() {
+                take(f, face, placed);
+            }
+        }
+    }
+
+    /// How the corners touch what lies no farther than `far` in an accepted configuration.
+    pub(super) fn pointings(&self, history: &History, far: f64) -> Vec<Pointing> {
+        let corners = self.contact.corners.iter().enumerate();
+        corners.flat_map(|(number, corner)| self.pointing(corner, self.contact.bears(number, history), far)).collect()
+    }
+
+    fn pointing(&self, corner: &BodyCorner, bears: bool, far: f64) -> [Pointing; WAYS] {
+        let (Some(c), Some(faces)) = (self.place_of(corner), self.contact.parts.target.as_faces()) else {
+            return Default::default();
+        };
+        let (plane, mesh) = (self.contact.parts.surface.plane, &self.contact.parts.mesh);
+        let other = if corner.own { &faces.surface } else { &self.contact.parts.surface };
+        let deepest = if bears { DEEPEST } else { SUNK } * corner.size;
+        let (mut before, mut past): (Vec<Touchable>, Vec<Touchable>) = Default::default();
+        self.across(corner, c, far.max(deepest), |f, face, placed| {
+            let n = other.middle_normal(face, placed);
+            let Some(hit) = project((face, placed), &FaceRay { x: c, n: -n }, plane) else { return };
+            let held = face.holds(hit.s, BESIDE) && hit.gap <= far && -hit.gap <= deepest;
+            let beyond = !face.holds(hit.s, 0.0) && face.holds(hit.s, FARTHEST) && hit.gap.abs() <= PAST * corner.size;
+            let range = RISES.map(|angle| angle + corner.bend + other.bend(f, mesh));
+            let s = face.nearest(hit.s);
+            let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range };
+            before.extend(held.then_some(touchable));
+            let end = face.shape(s).value(placed.nodes());
+            past.extend(beyond.then_some(Touchable { gap: (c - end).norm(), ..touchable }));
+        });
+        let nearest = |found: &[Touchable]| found.iter().min_by(|a, b| a.gap.abs().total_cmp(&b.gap.abs())).copied();
+        let pointing = |on: Touchable, share: f64| Pointing {
+            along: self.normal_in_valley(!corner.own, on.face, on.s) * -share,
+            gap: on.gap,
+        };
+        let mut ways = [Pointing::default(); WAYS];
+        let first = nearest(&before);
+        if let Some(first) = first {
+            let alike = |on: &&Touchable| {
+                other.pieces[on.face] == other.pieces[first.face] && (on.gap - first.gap).abs() <= ALIKE * corner.size
+            };
+            let shares = before.iter().filter(alike).map(|on| self.share_on(corner, c, on));
+            ways[0] = pointing(first, shares.fold(1.0, f64::min));
+        }
+        past.retain(|on| first.is_none_or(|first| other.pieces[on.face] != other.pieces[first.face]));
+        if let Some(past) = nearest(&past) {
+            ways[1] = pointing(past, self.share_on(corner, c, &past));
+        }
+        ways
+    }
+
+    /// How deep a corner lies in the other body, where that is more than a part of its flanks.
+    fn sunk(&self, corner: &BodyCorner) -> Option<f64> {
+        let c = self.place_of(corner)?;
+        let mut nearest = f64::INFINITY;
+        self.across(corner, c, corner.size, |_, face, placed| {
+            let [a, b] = face.shape(face.middle()).tangents(placed.nodes(), true);
+            let hit = project((face, placed), &FaceRay { x: c, n: -a.cross(b).unit() }, true);
+            let gap = hit.filter(|hit| face.holds(hit.s, ROUNDED)).map_or(f64::INFINITY, |hit| hit.gap);
+            nearest = if gap.abs() < nearest.abs() { gap } else { nearest };
+        });
+        (nearest.is_finite() && -nearest > UNSEEN * corner.size).then_some(-nearest)
+    }
+
+    /// The first corner that has come to lie in the other body since a state and bears nothing.
+    pub(super) fn unseen_corner(&self, before: &Configuration, bears: impl Fn(usize) -> bool) -> Option<usize> {
+        let unseen = |&(number, corner): &(usize, &BodyCorner)| {
+            !bears(number) && self.sunk(corner).is_some() && before.sunk(corner).is_none()
+        };
+        self.contact.corners.iter().enumerate().find(unseen).map(|(number, _)| number)
+    }
+
+    /// The part that the corners of a face of the surface have of what they stand for over a face of the target: none at a corner of the body
+    /// from which the face rises.
+    pub(super) fn left(&self, patch: &Patch) -> [f64; CORNERS] {
+        let mut left = [1.0; CORNERS];
+        let (contact, own) = (self.contact, self.contact.corners.iter().filter(|corner| corner.own));
+        for corner in own {
+            for (flank, at) in corner.flanks.into_iter().filter(|(flank, _)| *flank == patch.face) {
+                let (Some(c), Some((face, placed))) = (self.place_of(corner), self.of_side(false, patch.target)) else {
+                    continue;
+                };
+                let surface = contact.parts.target.as_faces().map(|faces| &faces.surface);
+                let (n, bend) = surface.map_or((Vec3::zero(), 0.0), |surface| {
+                    (surface.middle_normal(face, placed), surface.bend(patch.target, &contact.parts.mesh))
+                });
+                left[at] =
+                    1.0 - self.rises((corner, flank, at), c, (n, RISES.map(|angle| angle + corner.bend + bend)))[1];
+            }
+        }
+        left
+    }
+
+    /// The angle by which a flank rises from a face with this normal, and how much of the way between two angles that is.
+    fn rises(&self, (corner, f, at): (&BodyCorner, usize, usize), c: Vec3, (n, range): (Vec3, [f64; 2])) -> [f64; 2] {
+        let Some((face, placed)) = self.of_side(corner.own, f) else { return [0.0; 2] };
+        let middle = face.shape(place_along(face, at, 0.5)).value(placed.nodes());
+        let rise = (middle - c).unit().dot(n).clamp(-1.0, 1.0).asin();
+        [rise, smoothstep((rise - range[0]) / (range[1] - range[0]))[0]]
+    }
+
+    /// The share that a corner has of the force on a face: all where both of its flanks rise from that, or end over it at once.
+    fn share_on(&self, corner: &BodyCorner, c: Vec3, on: &Touchable) -> f64 {
+        let plane = self.contact.parts.surface.plane;
+        let lies = |x: Vec3| {
+            let (mut meets, ray) = (false, FaceRay { x, n: -on.n });
+            self.across(corner, x, corner.size, |_, face, placed| {
+                meets |= project((face, placed), &ray, plane).is_some_and(|hit| face.holds(hit.s, ROUNDED));
+            });
+            meets
+        };
+        let of_flank = |(f, at): (usize, usize)| {
+            let Some((face, placed)) = self.of_side(corner.own, f) else { return 0.0 };
+            let along = |part: f64| face.shape(place_along(face, at, part)).value(placed.nodes());
+            let [rise, rises] = self.rises((corner, f, at), c, (on.n, on.range));
+            if rises == 1.0 || rise < -on.range[0] {
+                return rises;
+            }
+            let end = (1..=PLACES).map(|k| ENDS[1] * k as f64 / PLACES as f64).find(|&part| !lies(along(part)));
+            let ends = end.map_or(0.0, |end| 1.0 - smoothstep((end - ENDS[0]) / (ENDS[1] - ENDS[0]))[0]);
+            rises.max(ends)
+        };
+        corner.flanks.map(of_flank).into_iter().fold(1.0, f64::min)
+    }
+
+    /// The normal of a face of one of both sides at a place, near the bottom of a valley that of both of its faces: pressed into it, a corner may
+    /// lie before neither.
+    fn normal_in_valley(&self, own: bool, f: usize, s: [f64; 2]) -> Vec3 {
+        let target = self.contact.parts.target.as_faces().map(|faces| &faces.surface);
+        let surface = if own { Some(&self.contact.parts.surface) } else { target };
+        let (Some(surface), Some((face, placed))) = (surface, self.of_side(own, f)) else { return Vec3::zero() };
+        let [a, b] = face.shape(s).tangents(placed.nodes(), true);
+        let (n, middle) = (a.cross(b).unit(), face.shape(face.middle()).value(placed.nodes()));
+        let of = |g: usize| self.of_side(own, g).map_or(*placed, |(_, placed)| *placed);
+        let functions = face.corner_functions(s).n;
+        let corners = surface.field[f][..face.corners()].iter().zip(placed.nodes()).zip(functions);
+        let averaged = corners.map(|((&node, &x), function)| {
+            let both = surface.normal(node, of).unit;
+            let near = smoothstep(1.0 - (1.0 - function) / BOTTOM)[0];
+            if both.dot(x - middle) < 0.0 { (both - n) * near } else { Vec3::zero() }
+        });
+        averaged.fold(n, |n, change| n + change).unit()
+    }
+
+    /// The face that a corner sees along the direction in which it points, within `range`, and where.
+    pub(super) fn touched_by(&self, touch: CornerTouch, range: [f64; 2]) -> Option<(usize, FaceProjection)> {
+        let corner = self.contact.corners.get(touch.number / WAYS).filter(|_| touch.along != Vec3::zero())?;
+        let ray = FaceRay { x: self.place_of(corner)?, n: touch.along.unit() };
+        let plane = self.contact.parts.surface.plane;
+        let mut best: Option<(usize, FaceProjection)> = None;
+        self.across(corner, ray.x, range[1].max(-range[0]), |f, face, placed| {
+            let Some(hit) = project((face, placed), &ray, plane) else { return };
+            let meets = face.holds(hit.s, ROUNDED) && -hit.normal().dot(ray.n) > LEAST_COSINE;
+            let nearer = best.is_none_or(|(_, best)| hit.gap.abs() < best.gap.abs());
+            if meets && nearer && (range[0]..=range[1]).contains(&hit.gap) {
+                best = Some((f, hit));
+            }
+        });
+        best
+    }
+}
+
+/// The place of an edge that is a part of the way from a corner of it to the other.
+fn place_along(face: &FieldFace, at: usize, part: f64) -> [f64; 2] {
+    let [from, middle] = [face.corner_place(at), face.middle()].map(|xi| xi[0]);
+    [from + 2.0 * part * (middle - from), 0.0]
+}
+
+impl FieldContact {
+    /// A face of the surface, or else of a target of bodies.
+    pub(super) fn face_of(&self, own: bool, f: usize) -> Option<&FieldFace> {
+        let surface = if own { &self.parts.surface } else { &self.parts.target.as_faces()?.surface };
+        surface.faces.get(f)
+    }
+
+    /// Whether a face of the surface and one of the target may touch by a corner of one of them: in self-contact either carries.
+    fn may_meet(&self, face: usize, target: usize) -> bool {
+        let Some(faces) = self.parts.target.as_faces() else { return false };
+        let (own, other) = (&self.parts.surface.faces[face], &faces.surface.faces[target]);
+        own.side != other.side && !own.nodes.iter().any(|node| other.nodes.contains(node))
+    }
+
+    /// The patch of a corner that sees a face, and its place on the face of the surface.
+    pub(super) fn corner_patch(&self, touch: CornerTouch, (f, s): (usize, [f64; 2])) -> (Patch, [f64; 2]) {
+        let corner = &self.corners[touch.number / WAYS];
+        let (flank, at) = corner.flanks[0];
+        let (face, target, place) =
+            if corner.own { (flank, f, self.parts.surface.faces[flank].corner_place(at)) } else { (f, flank, s) };
+        (Patch { corner: Some(touch), ..Patch::whole(face, target) }, place)
+    }
+
+    /// The corner of a slot.
+    pub(super) fn corner_of(&self, slot: usize) -> Option<&BodyCorner> {
+        self.corners.get(slot.checked_sub(self.nodal_slots())? / WAYS)
+    }
+
+    /// Whether a corner bears, by a stencil of its own or those of its node.
+    pub(super) fn bears(&self, number: usize, history: &History) -> bool {
+        let (corner, first) = (&self.corners[number], self.nodal_slots() + WAYS * number);
+        let flanks = corner.flanks.iter().filter(|_| corner.own);
+        let nodal = flanks.flat_map(|&(flank, at)| {
+            (0..self.pieces).map(move |piece| self.slot(self.parts.surface.field[flank][at], piece))
+        });
+        (first..first + WAYS).chain(nodal).any(|slot| history.slot(slot)[entry::STATUS] > 0.0)
+    }
+
+    /// How the corners touched in the increment that led to an accepted history.
+    pub(super) fn known_pointings(&self, history: &History) -> Vec<Pointing> {
+        let of = |slot: usize| {
+            let [x, y, z] = std::array::from_fn(|axis| history.slot(slot)[entry::POINTS + axis]);
+            Pointing { along: Vec3::new(x, y, z), gap: 0.0 }
+        };
+        (self.nodal_slots()..self.nodal_slots() + WAYS * self.corners.len()).map(of).collect()
+    }
+}
+
+/// A corner in place, and what it sees.
+struct CornerInPlace<'a> {
+    corner: &'a BodyCorner,
+    /// Its place,
+    c: Vec3,
+    /// the functions of the flank there,
+    flank: ShapeFunctions,
+    at: [f64; 2],
+    /// the direction to the other body, and where that is.
+    along: Vec3,
+    hit: FaceProjection,
+}
+
+impl NodesInPlace<'_> {
+    fn corner(&self, patch: &Patch, touch: CornerTouch) -> Option<CornerInPlace<'_>> {
+        let (surface, faces) = (&self.contact.parts.surface, self.contact.parts.target.as_faces()?);
+        let corner = &self.contact.corners[touch.number / WAYS];
+        let [own, target] = [&surface.faces[patch.face], &faces.surface.faces[patch.target]];
+        let (flank, other) = if corner.own { (own, target) } else { (target, own) };
+        let at = flank.corner_place(corner.flanks[0].1);
+        let (c, along) = (self.position(corner.node), touch.along.unit());
+        let hit = project((other, &self.placed(other)), &FaceRay { x: c, n: along }, surface.plane)?;
+        Some(CornerInPlace { corner, c, flank: flank.extended_shape(at), at, along, hit })
+    }
+
+    /// The point of a corner.
+    pub(super) fn corner_point(
+        &self,
+        (patch, touch): (&Patch, CornerTouch),
+        recall: Recall,
+        points: &mut Vec<PatchPoint>,
+    ) -> Option<()> {
+        let CornerInPlace { corner, c, flank, at, along, hit } = self.corner(patch, touch)?;
+        let touched = recall(self, patch, at);
+        let way = touched.map_or(Vec3::zero(), |touched| touched.now - c);
+        // What the target sees is its corner, where that is the target's.
+        let seen = if corner.own { hit } else { FaceProjection { s: at, shape: flank, y: c, ..hit } };
+        let (xi, shape) = if corner.own { (at, flank) } else { (hit.s, hit.shape) };
+        points.push(PatchPoint {
+            number: 0,
+            vertex: None,
+            xi,
+            weight: corner.area * touch.along.norm(),
+            functions: ShapeFunctions::constant(1.0),
+            dual: ShapeFunctions::constant(0.0),
+            shape,
+            gap: hit.gap,
+            bulge: 0.0,
+            n: if corner.own { along } else { -along },
+            v: if corner.own { way } else { -way },
+            y: seen.y,
+            sight: Sight::Corner(seen),
+            touched,
+        });
+        Some(())
+    }
+
+    /// Its derivatives along each unknown.
+    pub(super) fn corner_rates(
+        &self,
+        (patch, touch): (&Patch, CornerTouch),
+        points: &[PatchPoint],
+        columns: &[PointColumn],
+        rates: &mut Vec<PointRates>,
+    ) {
+        let (Some(here), [point]) = (self.corner(patch, touch), points) else { return };
+        let (corner, across) = (here.corner, |node: usize, face: &FieldFace, shape: &ShapeFunctions| {
+            face.nodes.iter().position(|&other| other == node).map_or(0.0, |k| shape.n[k])
+        });
+        let other = |f: usize| self.contact.face_of(!corner.own, f);
+        let Some(touches) = other(if corner.own { patch.target } else { patch.face }) else { return };
+        for column in columns {
+            let &PointColumn::Node { axis, node, .. } = column else {
+                rates.push(PointRates::default());
+                continue;
+            };
+            let unit = Vec3::axis(axis);
+            let moved = unit * if node == corner.node { 1.0 } else { 0.0 };
+            let carried = unit * across(node, touches, &here.hit.shape);
+            let (gap, s) = here.hit.follow(here.along, moved - carried);
+            let foot = carried + here.hit.tangents[0] * s[0] + here.hit.tangents[1] * s[1];
+            let recalled = point.touched.and_then(|touched| touched.face);
+            let was = recalled.and_then(|(f, shape)| Some(unit * across(node, other(f)?, &shape))).unwrap_or(moved);
+            let way = was - moved;
+            let (xi, s, y, v) = if corner.own { ([0.0; 2], s, foot, way) } else { (s, [0.0; 2], moved, -way) };
+            rates.push(PointRates { weight: 0.0, xi, gap, bulge: 0.0, n: Vec3::zero(), v, s, y });
+        }
+    }
+}

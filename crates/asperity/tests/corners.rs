@@ -110,8 +110,8 @@ displacement."post.right" = { x = -0.6, y = 0.0, z = 0.0 }
 "#;
         deck("solid", &meshes, sides, steps)
     };
+    let [alone, ..] = forces(&space("hex8", ["beam.right", "post.left"]));
     for cell in ["hex8", "tet10"] {
-        let [alone, ..] = forces(&space(cell, ["beam.right", "post.left"]));
         let [force, ..] = forces(&space(cell, ["beamtip", "posttip"]));
         assert!(alone < -15.0 && (force / alone - 1.0).abs() < 0.12, "{cell}: {force} {alone}");
     }
@@ -149,7 +149,11 @@ displacement."b.top" = { x = 7.7, y = -2.1 }
 
 /// A deck whose parts are those of another, with the nodes of one moved before anything else.
 fn moved(parts: &str, rest: &str, body: &str, to: impl Fn([f64; 2]) -> [f64; 2]) -> Model {
-    let deck = |mesh: &str| format!("version = 1\nspace = \"plane-strain\"\n{mesh}\n{rest}");
+    moved_in("plane-strain", parts, rest, body, to)
+}
+
+fn moved_in(space: &str, parts: &str, rest: &str, body: &str, to: impl Fn([f64; 2]) -> [f64; 2]) -> Model {
+    let deck = |mesh: &str| format!("version = 1\nspace = \"{space}\"\n{mesh}\n{rest}");
     let mut mesh = (*made(&deck(parts), &[]).model.mesh).clone();
     // The deck makes its own again.
     mesh.groups.retain(|name, _| !rest.contains(&format!("group.{name} ")));
@@ -195,8 +199,9 @@ fn a_corner_is_felt_wherever_it_touches() {
         for (cells, fine) in [([18, 6], 6), ([19, 6], 6), ([19, 6], 24), ([45, 15], 6), ([44, 15], 9)] {
             let force = wedge(degrees, cells, fine);
             let ratios: Vec<f64> = force.iter().zip(&right).map(|(force, right)| force / right).collect();
-            // A line load on a node is felt the stiffer the coarser the mesh, by a logarithm; a note says so of contacts on one point.
-            assert!(ratios.iter().all(|ratio| (0.6..1.5).contains(ratio)), "{degrees} {cells:?} {fine}: {ratios:?}");
+            // What a line load presses in is a logarithm of the face that it acts on: 1.4 times the force by a coarse mesh beneath a node, twice in the middle
+            // of a face. A note says so of contacts that rest on one point.
+            assert!(ratios.iter().all(|ratio| (0.8..2.2).contains(ratio)), "{degrees} {cells:?} {fine}: {ratios:?}");
             assert!(force.windows(2).all(|pair| pair[1] > pair[0]), "{force:?}");
         }
     }
@@ -248,8 +253,65 @@ displacement.grip = {{ x = 3.6, y = -0.1 }}
             // The face bends beneath the corner, and its normal with it.
             assert!((-mean(0) / mean(1) / 0.2 - 1.0).abs() < 0.06, "{degrees}: {} {}", mean(0), mean(1));
             assert!(sliding.iter().all(|force| (0.7..1.3).contains(&(force[1] / mean(1)))), "{degrees}: {sliding:?}");
-            let differ = |one: &[f64; 2], other: &[f64; 2]| (one[1] - other[1]).abs() > 2e-3 * mean(1);
+            let differ = |one: &[f64; 2], other: &[f64; 2]| (one[1] - other[1]).abs() > 0.03 * mean(1);
             assert!(!forces.iter().zip(&all[0].0).any(|(one, other)| differ(one, other)), "{degrees}: {all:?}");
+        }
+    }
+}
+
+/// The edge of a block in space presses into another as in the plane, whichever side carries, and slides along it: forces along its flanks pushed it sideways, with up
+/// to seven tenths of what presses it.
+#[test]
+fn an_edge_in_space_is_a_corner_of_the_plane() {
+    let rest = |planes: &str, [surface, target]: [&str; 2], way: f64| {
+        format!(
+            r#"
+material.h.elastic = {{ young = 20000.0, poisson = 0.3 }}
+material.s.elastic = {{ young = 1000.0, poisson = 0.3 }}
+body.w.material = "h"
+body.b.material = "s"
+group.tip = {{ of = "w.bottom", with = ["w.left"] }}
+group.grip = {{ of = "w.top", with = ["w.right"] }}
+contact.c = {{ surface = "{surface}", target = "{target}", law.frictionless = {{}}, roles = "given" }}
+[[step]]
+increments.count = 3
+{planes}
+displacement."b.bottom" = {{ x = 0.0, y = 0.0 }}
+displacement.grip = {{ x = 0.0, y = -0.15 }}
+[[step]]
+increments.count = 6
+displacement.grip = {{ x = {way}, y = -0.15 }}
+"#
+        )
+    };
+    let turned = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        move |[x, y]: [f64; 2]| [x * cos - y * sin, x * sin + y * cos]
+    };
+    let forces = |model: &Model| {
+        let table = columns(model, &run(model));
+        ["x", "y"].map(|axis| table[&format!("contact.c.force.{axis}")].clone())
+    };
+    for degrees in [45.0, 30.0] {
+        let plane = r#"mesh.part.w.rectangle = { from = [0.0, 0.0], to = [10.0, 10.0], cells = [6, 6], cell = "quad4" }
+            mesh.part.b.rectangle = { from = [-15.0, -10.0], to = [15.0, 0.0], cells = [19, 6], cell = "quad4" }"#;
+        let space = r#"mesh.part.w.box = { from = [0.0, 0.0, 0.0], to = [10.0, 10.0, 3.0], cells = [6, 6, 2], cell = "hex8" }
+            mesh.part.b.box = { from = [-15.0, -10.0, 0.0], to = [15.0, 0.0, 3.0], cells = [19, 6, 3], cell = "hex8" }"#;
+        let flat = rest("", ["tip", "b.top"], 0.6);
+        let [x, y] = forces(&moved(plane, &flat, "w", turned(degrees)));
+        let planes =
+            ["w.back", "w.front", "b.back", "b.front"].map(|side| format!("displacement.\"{side}\" = {{ z = 0.0 }}\n"));
+        let planes = &planes.concat();
+        // Where the flat side carries, the edge is pressed alone.
+        for (sign, sides, way) in [(1.0, ["tip", "b.top"], 0.6), (-1.0, ["b.top", "tip"], 0.0)] {
+            let model = moved_in("solid", space, &rest(planes, sides, way), "w", turned(degrees));
+            let [across, down] = forces(&model);
+            let count = if way > 0.0 { y.len() } else { 3 };
+            for (k, (plane, space)) in y.iter().zip(&down).enumerate().take(count) {
+                assert!((sign * space / (3.0 * plane) - 1.0).abs() < 0.03, "{degrees} {sides:?}: {y:?} {down:?}");
+                let [one, other] = [x[k], sign * across[k] / 3.0];
+                assert!((one - other).abs() < 0.03 * plane, "{degrees} {sides:?}: {x:?} {across:?}");
+            }
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget};
-use super::corner::{CornerTouch, Pointing, WAYS};
-use super::cover::{FEET, Landing, Patch};
+use super::corner::Pointing;
+use super::corners::WAYS;
+use super::cover::{CornerTouch, FEET, Landing, Patch};
 use super::face::{FieldFace, ShapeFunctions, moved};
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
@@ -350,9 +351,7 @@ impl FieldAttempt<'_> {
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
         new[entry::NEARER] = self.nearer[slot].most;
-        if let Some(number) = slot.checked_sub(contact.nodal_slots())
-            && let Some(pointing) = self.pointings.get(number)
-        {
+        if let Some(pointing) = self.pointing(slot) {
             new[entry::POINTS..entry::POINTS + 3].copy_from_slice(&pointing.along.0);
         }
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
@@ -447,6 +446,11 @@ impl FieldAttempt<'_> {
     fn answer_of(&self, (slot, past): (usize, &Past), y: &Coordinates) -> Result<Answer, Failure> {
         let flat = self.flattened((slot, past), y)?;
         self.behind((slot, past), flat, y)
+    }
+
+    /// How a corner touches, of its slot.
+    fn pointing(&self, slot: usize) -> Option<&Pointing> {
+        self.pointings.get(slot.checked_sub(self.contact.nodal_slots())?)
     }
 
     /// By how much the pressure of a node makes less what is added to its penetration: a spring in series with the law.

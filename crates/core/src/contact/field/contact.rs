@@ -1,6 +1,6 @@
 //! What a field is made of: its surface, what that may touch, the law and how it is computed.
 
-use super::corner::{BodyCorner, WAYS};
+use super::corners::{BodyCorner, WAYS};
 use super::cover::{FEET, Patch};
 use super::face::FieldFace;
 use super::faces::TargetFaces;
@@ -68,9 +68,9 @@ pub struct FieldContact {
     pub(super) roles: FieldRoles,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
-    /// Convex edges of a target of bodies, in space,
+    /// Convex edges of a target of bodies,
     pub(super) edges: Vec<BodyEdge>,
-    /// and convex corners of both sides, in the plane.
+    /// and convex corners of both sides.
     pub(super) corners: Vec<BodyCorner>,
     /// Nodes of both sides all of whose displacements are prescribed, step by step.
     pub(super) held: Vec<BTreeSet<usize>>,
@@ -109,11 +109,11 @@ impl FieldContact {
         };
         let (mut edges, mut corners) = (Vec::new(), Vec::new());
         if let Some(faces) = target.as_faces() {
-            if surface.plane {
-                corners = BodyCorner::all(surface, mesh, true);
-                corners.extend(BodyCorner::all(&faces.surface, mesh, false).into_iter().filter(|_| !roles.itself));
-            } else {
-                edges = faces.surface.edges(mesh);
+            edges = faces.surface.edges(mesh);
+            let [own, other] = [&*surface, &faces.surface].map(|surface| surface.sizes(mesh)[0]);
+            corners = BodyCorner::all(surface, mesh, true, other);
+            if !roles.itself {
+                corners.extend(BodyCorner::all(&faces.surface, mesh, false, own));
             }
         }
         Self { sides, roles, pieces, edges, corners, held: Vec::new(), sizes, areas }

@@ -13,64 +13,18 @@
 use super::column::PointColumn;
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
-use super::cover::Patch;
+use super::corners::{BodyCorner, Flank, WAYS};
+use super::cover::{CornerTouch, Patch};
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE, project};
 use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, smoothstep};
 use super::points::Recall;
-use super::surface::FieldSurface;
 use crate::contact::record::entry;
-use crate::mesh::Mesh;
 use crate::system::History;
 use crate::tensor::{BoundingBox, Vec3};
 
-/// A convex corner of one of the two sides of a contact of bodies.
-#[derive(Debug, Clone, Copy)]
-pub struct BodyCorner {
-    /// Whether it is one of the surface, or else of the target.
-    pub own: bool,
-    /// The faces that meet in it, and the number of their corner there.
-    pub flanks: [(usize, usize); 2],
-    /// The node of the mesh.
-    pub node: usize,
-    /// Undeformed area of both flanks around it.
-    area: f64,
-    /// The length of the shorter of them.
-    pub size: f64,
-    /// The angle by which they bend beside it before any motion.
-    bend: f64,
-}
-
-impl BodyCorner {
-    /// Those of a surface.
-    pub fn all(surface: &FieldSurface, mesh: &Mesh, own: bool) -> Vec<Self> {
-        let of = |edge: &super::surface::BodyEdge| {
-            let node = surface.faces[edge.faces[0]].corner_node(edge.ends[0]);
-            let at = |f: usize| {
-                let face = &surface.faces[f];
-                (f, (0..face.corners()).find(|&corner| face.corner_node(corner) == node).unwrap_or(0))
-            };
-            let flanks = edge.faces.map(at);
-            let area = |(f, corner): (usize, usize)| {
-                surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
-            };
-            let [area, size, bend] = [
-                flanks.map(area).iter().sum(),
-                edge.faces.map(|f| surface.size(f, mesh)).into_iter().fold(f64::INFINITY, f64::min),
-                edge.faces.map(|f| surface.bend(f, mesh)).into_iter().fold(0.0, f64::max),
-            ];
-            Self { own, flanks, node, area, size, bend }
-        };
-        if surface.plane { surface.edges(mesh).iter().map(of).collect() } else { Vec::new() }
-    }
-}
-
-/// How a corner touches in an increment: the face before which it lies, or, where it does not see that any more, one beyond whose end it lies, as
-/// a corner that goes past another.
-pub const WAYS: usize = 2;
-
-/// One of them.
+/// How a corner touches in an increment, one of the [`WAYS`].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Pointing {
     /// From it to the other body, a unit vector times its share of the force; zero where it does not touch by itself.
@@ -89,32 +43,21 @@ struct Touchable {
     range: [f64; 2],
 }
 
-/// A corner in a patch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CornerTouch {
-    /// The number of the corner times [`WAYS`], and that of the way.
-    pub number: usize,
-    /// As that of a [`Pointing`].
-    pub along: Vec3,
-}
-
 /// Angles, beyond those by which both sides bend, of the lower flank to what it touches between which a corner takes over from the field: a block that
 /// lies flat is strained by less than the first.
 const RISES: [f64; 2] = [0.02, 0.08];
 /// Part of a flank that lies flat on what it touches and then ends over it between which the field has too little of it to bear,
-const ENDS: [f64; 2] = [0.1, 0.5];
+const ENDS: [f64; 2] = [0.05, 0.25];
 /// and at how many places that is looked at.
 const PLACES: usize = 8;
 /// How far past the end of a face, in reference coordinates, its normal may pass through a corner: below the bottom of a valley pass none.
 const BESIDE: f64 = 0.1;
 /// The same of the direction of a corner, by rounding.
 const ROUNDED: f64 = 1e-6;
-/// Part of a face next to the bottom of a valley over which its normal turns to that of both faces there.
-const BOTTOM: f64 = 0.1;
 /// Gap over the size of the flanks by which another face may be farther and still say that a flank lies flat.
 const ALIKE: f64 = 0.05;
 /// Depth over the size of the flanks from which on a corner that bears nothing lies in a body by drawing or because it came in elsewhere.
-const SUNK: f64 = 0.02;
+pub(super) const SUNK: f64 = 0.02;
 /// Depth over that size in which a corner is looked for.
 const DEEPEST: f64 = 1.0;
 /// Distance over that size from the plane of a face beyond whose end a corner lies up to which it may come onto that.
@@ -136,20 +79,30 @@ impl Configuration<'_> {
     }
 
     fn place_of(&self, corner: &BodyCorner) -> Option<Vec3> {
-        let (face, at) = corner.flanks[0];
-        Some(self.of_side(corner.own, face)?.1.nodes()[at])
+        let Flank { face, xi, .. } = corner.flanks[0];
+        let (face, placed) = self.of_side(corner.own, face)?;
+        Some(face.shape(xi).value(placed.nodes()))
+    }
+
+    /// Where a node of the flanks of a corner is.
+    fn node_of_side(&self, corner: &BodyCorner, node: usize) -> Vec3 {
+        let find = |flank: &Flank| {
+            let (face, placed) = self.of_side(corner.own, flank.face)?;
+            Some(placed.nodes()[face.nodes.iter().position(|&other| other == node)?])
+        };
+        corner.flanks.iter().find_map(find).unwrap_or_default()
     }
 
     /// Calls `take` with the faces of the other side that are within `reach` of a corner and may touch it.
     fn across(&self, corner: &BodyCorner, c: Vec3, reach: f64, mut take: impl FnMut(usize, &FieldFace, &PlacedFace)) {
         let Some(faces) = self.contact.parts.target.as_faces() else { return };
-        let flank = corner.flanks[0].0;
+        let flank = corner.flanks[0].face;
         let count = if corner.own { faces.surface.faces.len() } else { self.placed.len() };
         for f in 0..count {
             let Some((face, placed)) = self.of_side(!corner.own, f) else { continue };
             let is_near = BoundingBox::of(placed.nodes().iter().copied()).distance(c) <= reach;
             let touches = || if corner.own { self.contact.may_meet(flank, f) } else { self.contact.may_meet(f, flank) };
-            if is_near && !face.nodes.contains(&corner.node) && touches() {
+            if is_near && !corner.nodes.iter().any(|node| face.nodes.contains(node)) && touches() {
                 take(f, face, placed);
             }
         }
@@ -173,7 +126,8 @@ impl Configuration<'_> {
             let n = other.middle_normal(face, placed);
             let Some(hit) = project((face, placed), &FaceRay { x: c, n: -n }, plane) else { return };
             let held = face.holds(hit.s, BESIDE) && hit.gap <= far && -hit.gap <= deepest;
-            let beyond = !face.holds(hit.s, 0.0) && face.holds(hit.s, FARTHEST) && hit.gap.abs() <= PAST * corner.size;
+            let near = hit.gap.abs() <= PAST * corner.size;
+            let beyond = near && !face.holds(hit.s, 0.0) && face.holds(hit.s, FARTHEST);
             let range = RISES.map(|angle| angle + corner.bend + other.bend(f, mesh));
             let s = face.nearest(hit.s);
             let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range };
@@ -204,11 +158,11 @@ impl Configuration<'_> {
 
     /// How deep a corner lies in the other body, where that is more than a part of its flanks.
     fn sunk(&self, corner: &BodyCorner) -> Option<f64> {
-        let c = self.place_of(corner)?;
+        let (c, plane) = (self.place_of(corner)?, self.contact.parts.surface.plane);
         let mut nearest = f64::INFINITY;
         self.across(corner, c, corner.size, |_, face, placed| {
-            let [a, b] = face.shape(face.middle()).tangents(placed.nodes(), true);
-            let hit = project((face, placed), &FaceRay { x: c, n: -a.cross(b).unit() }, true);
+            let [a, b] = face.shape(face.middle()).tangents(placed.nodes(), plane);
+            let hit = project((face, placed), &FaceRay { x: c, n: -a.cross(b).unit() }, plane);
             let gap = hit.filter(|hit| face.holds(hit.s, ROUNDED)).map_or(f64::INFINITY, |hit| hit.gap);
             nearest = if gap.abs() < nearest.abs() { gap } else { nearest };
         });
@@ -229,7 +183,8 @@ impl Configuration<'_> {
         let mut left = [1.0; CORNERS];
         let (contact, own) = (self.contact, self.contact.corners.iter().filter(|corner| corner.own));
         for corner in own {
-            for (flank, at) in corner.flanks.into_iter().filter(|(flank, _)| *flank == patch.face) {
+            for flank in corner.flanks.iter().filter(|flank| flank.face == patch.face) {
+                let Some(at) = flank.at else { continue };
                 let (Some(c), Some((face, placed))) = (self.place_of(corner), self.of_side(false, patch.target)) else {
                     continue;
                 };
@@ -237,18 +192,21 @@ impl Configuration<'_> {
                 let (n, bend) = surface.map_or((Vec3::zero(), 0.0), |surface| {
                     (surface.middle_normal(face, placed), surface.bend(patch.target, &contact.parts.mesh))
                 });
-                left[at] =
-                    1.0 - self.rises((corner, flank, at), c, (n, RISES.map(|angle| angle + corner.bend + bend)))[1];
+                left[at] = 1.0 - self.rises((corner, flank), c, (n, RISES.map(|angle| angle + corner.bend + bend)))[1];
             }
         }
         left
     }
 
     /// The angle by which a flank rises from a face with this normal, and how much of the way between two angles that is.
-    fn rises(&self, (corner, f, at): (&BodyCorner, usize, usize), c: Vec3, (n, range): (Vec3, [f64; 2])) -> [f64; 2] {
-        let Some((face, placed)) = self.of_side(corner.own, f) else { return [0.0; 2] };
-        let middle = face.shape(place_along(face, at, 0.5)).value(placed.nodes());
-        let rise = (middle - c).unit().dot(n).clamp(-1.0, 1.0).asin();
+    fn rises(&self, (corner, flank): (&BodyCorner, &Flank), c: Vec3, (n, range): (Vec3, [f64; 2])) -> [f64; 2] {
+        let Some((face, placed)) = self.of_side(corner.own, flank.face) else { return [0.0; 2] };
+        let mut way = face.shape(face.middle()).value(placed.nodes()) - c;
+        if let Some([a, b]) = corner.edge.map(|ends| ends.map(|node| self.node_of_side(corner, node))) {
+            let along = (b - a).unit();
+            way = way - along * along.dot(way);
+        }
+        let rise = way.unit().dot(n).clamp(-1.0, 1.0).asin();
         [rise, smoothstep((rise - range[0]) / (range[1] - range[0]))[0]]
     }
 
@@ -262,10 +220,10 @@ impl Configuration<'_> {
             });
             meets
         };
-        let of_flank = |(f, at): (usize, usize)| {
-            let Some((face, placed)) = self.of_side(corner.own, f) else { return 0.0 };
-            let along = |part: f64| face.shape(place_along(face, at, part)).value(placed.nodes());
-            let [rise, rises] = self.rises((corner, f, at), c, (on.n, on.range));
+        let of_flank = |flank: &Flank| {
+            let Some((face, placed)) = self.of_side(corner.own, flank.face) else { return 0.0 };
+            let along = |part: f64| face.shape(place_along(face, flank.xi, part)).value(placed.nodes());
+            let [rise, rises] = self.rises((corner, flank), c, (on.n, on.range));
             if rises == 1.0 || rise < -on.range[0] {
                 return rises;
             }
@@ -273,24 +231,23 @@ impl Configuration<'_> {
             let ends = end.map_or(0.0, |end| 1.0 - smoothstep((end - ENDS[0]) / (ENDS[1] - ENDS[0]))[0]);
             rises.max(ends)
         };
-        corner.flanks.map(of_flank).into_iter().fold(1.0, f64::min)
+        corner.flanks.iter().map(of_flank).fold(1.0, f64::min)
     }
 
-    /// The normal of a face of one of both sides at a place, near the bottom of a valley that of both of its faces: pressed into it, a corner may
-    /// lie before neither.
+    /// The normal of a face of one of both sides at a place, turned towards that of both faces of a valley the nearer to its bottom: pressed into it, a
+    /// corner may lie before neither.
     fn normal_in_valley(&self, own: bool, f: usize, s: [f64; 2]) -> Vec3 {
         let target = self.contact.parts.target.as_faces().map(|faces| &faces.surface);
         let surface = if own { Some(&self.contact.parts.surface) } else { target };
         let (Some(surface), Some((face, placed))) = (surface, self.of_side(own, f)) else { return Vec3::zero() };
-        let [a, b] = face.shape(s).tangents(placed.nodes(), true);
+        let [a, b] = face.shape(s).tangents(placed.nodes(), surface.plane);
         let (n, middle) = (a.cross(b).unit(), face.shape(face.middle()).value(placed.nodes()));
         let of = |g: usize| self.of_side(own, g).map_or(*placed, |(_, placed)| *placed);
         let functions = face.corner_functions(s).n;
         let corners = surface.field[f][..face.corners()].iter().zip(placed.nodes()).zip(functions);
         let averaged = corners.map(|((&node, &x), function)| {
             let both = surface.normal(node, of).unit;
-            let near = smoothstep(1.0 - (1.0 - function) / BOTTOM)[0];
-            if both.dot(x - middle) < 0.0 { (both - n) * near } else { Vec3::zero() }
+            if both.dot(x - middle) < 0.0 { (both - n) * function } else { Vec3::zero() }
         });
         averaged.fold(n, |n, change| n + change).unit()
     }
@@ -313,10 +270,9 @@ impl Configuration<'_> {
     }
 }
 
-/// The place of an edge that is a part of the way from a corner of it to the other.
-fn place_along(face: &FieldFace, at: usize, part: f64) -> [f64; 2] {
-    let [from, middle] = [face.corner_place(at), face.middle()].map(|xi| xi[0]);
-    [from + 2.0 * part * (middle - from), 0.0]
+/// The place of a face that is a part of the way from a place at its border over its middle.
+fn place_along(face: &FieldFace, xi: [f64; 2], part: f64) -> [f64; 2] {
+    std::array::from_fn(|k| xi[k] + 2.0 * part * (face.middle()[k] - xi[k]))
 }
 
 impl FieldContact {
@@ -336,9 +292,8 @@ impl FieldContact {
     /// The patch of a corner that sees a face, and its place on the face of the surface.
     pub(super) fn corner_patch(&self, touch: CornerTouch, (f, s): (usize, [f64; 2])) -> (Patch, [f64; 2]) {
         let corner = &self.corners[touch.number / WAYS];
-        let (flank, at) = corner.flanks[0];
-        let (face, target, place) =
-            if corner.own { (flank, f, self.parts.surface.faces[flank].corner_place(at)) } else { (f, flank, s) };
+        let flank = corner.flanks[0];
+        let (face, target, place) = if corner.own { (flank.face, f, flank.xi) } else { (f, flank.face, s) };
         (Patch { corner: Some(touch), ..Patch::whole(face, target) }, place)
     }
 
@@ -351,9 +306,8 @@ impl FieldContact {
     pub(super) fn bears(&self, number: usize, history: &History) -> bool {
         let (corner, first) = (&self.corners[number], self.nodal_slots() + WAYS * number);
         let flanks = corner.flanks.iter().filter(|_| corner.own);
-        let nodal = flanks.flat_map(|&(flank, at)| {
-            (0..self.pieces).map(move |piece| self.slot(self.parts.surface.field[flank][at], piece))
-        });
+        let nodes = flanks.filter_map(|flank| Some(self.parts.surface.field[flank.face][flank.at?]));
+        let nodal = nodes.flat_map(|node| (0..self.pieces).map(move |piece| self.slot(node, piece)));
         (first..first + WAYS).chain(nodal).any(|slot| history.slot(slot)[entry::STATUS] > 0.0)
     }
 
@@ -372,9 +326,9 @@ struct CornerInPlace<'a> {
     corner: &'a BodyCorner,
     /// Its place,
     c: Vec3,
-    /// the functions of the flank there,
+    /// the nodes of its flank, and their functions there,
+    nodes: &'a [usize],
     flank: ShapeFunctions,
-    at: [f64; 2],
     /// the direction to the other body, and where that is.
     along: Vec3,
     hit: FaceProjection,
@@ -386,10 +340,10 @@ impl NodesInPlace<'_> {
         let corner = &self.contact.corners[touch.number / WAYS];
         let [own, target] = [&surface.faces[patch.face], &faces.surface.faces[patch.target]];
         let (flank, other) = if corner.own { (own, target) } else { (target, own) };
-        let at = flank.corner_place(corner.flanks[0].1);
-        let (c, along) = (self.position(corner.node), touch.along.unit());
+        let (shape, along) = (flank.shape(corner.flanks[0].xi), touch.along.unit());
+        let c = shape.value(self.placed(flank).nodes());
         let hit = project((other, &self.placed(other)), &FaceRay { x: c, n: along }, surface.plane)?;
-        Some(CornerInPlace { corner, c, flank: flank.extended_shape(at), at, along, hit })
+        Some(CornerInPlace { corner, c, nodes: &flank.nodes, flank: shape, along, hit })
     }
 
     /// The point of a corner.
@@ -399,7 +353,8 @@ impl NodesInPlace<'_> {
         recall: Recall,
         points: &mut Vec<PatchPoint>,
     ) -> Option<()> {
-        let CornerInPlace { corner, c, flank, at, along, hit } = self.corner(patch, touch)?;
+        let CornerInPlace { corner, c, flank, along, hit, .. } = self.corner(patch, touch)?;
+        let at = corner.flanks[0].xi;
         let touched = recall(self, patch, at);
         let way = touched.map_or(Vec3::zero(), |touched| touched.now - c);
         // What the target sees is its corner, where that is the target's.
@@ -433,8 +388,8 @@ impl NodesInPlace<'_> {
         rates: &mut Vec<PointRates>,
     ) {
         let (Some(here), [point]) = (self.corner(patch, touch), points) else { return };
-        let (corner, across) = (here.corner, |node: usize, face: &FieldFace, shape: &ShapeFunctions| {
-            face.nodes.iter().position(|&other| other == node).map_or(0.0, |k| shape.n[k])
+        let (corner, part) = (here.corner, |node: usize, nodes: &[usize], shape: &ShapeFunctions| {
+            nodes.iter().position(|&other| other == node).map_or(0.0, |k| shape.n[k])
         });
         let other = |f: usize| self.contact.face_of(!corner.own, f);
         let Some(touches) = other(if corner.own { patch.target } else { patch.face }) else { return };
@@ -444,12 +399,13 @@ impl NodesInPlace<'_> {
                 continue;
             };
             let unit = Vec3::axis(axis);
-            let moved = unit * if node == corner.node { 1.0 } else { 0.0 };
-            let carried = unit * across(node, touches, &here.hit.shape);
+            let moved = unit * part(node, here.nodes, &here.flank);
+            let carried = unit * part(node, &touches.nodes, &here.hit.shape);
             let (gap, s) = here.hit.follow(here.along, moved - carried);
             let foot = carried + here.hit.tangents[0] * s[0] + here.hit.tangents[1] * s[1];
             let recalled = point.touched.and_then(|touched| touched.face);
-            let was = recalled.and_then(|(f, shape)| Some(unit * across(node, other(f)?, &shape))).unwrap_or(moved);
+            let was =
+                recalled.and_then(|(f, shape)| Some(unit * part(node, &other(f)?.nodes, &shape))).unwrap_or(moved);
             let way = was - moved;
             let (xi, s, y, v) = if corner.own { ([0.0; 2], s, foot, way) } else { (s, [0.0; 2], moved, -way) };
             rates.push(PointRates { weight: 0.0, xi, gap, bulge: 0.0, n: Vec3::zero(), v, s, y });

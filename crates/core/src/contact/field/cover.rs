@@ -5,7 +5,6 @@
 //! normal of the surface passes through the vertex, `(x_V - x(xi)) . e_S(xi) = 0`; of a tool, where the surface crosses the
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
-use super::corner::CornerTouch;
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions, WHOLE};
 use super::space::SeenNodes;
 use super::surface::FieldSurface;
@@ -88,6 +87,15 @@ pub struct Landing {
     pub beside: [Option<FootBeside>; 2],
     /// The tool's point that lies over the place, in the tool's own frame.
     pub own: Vec3,
+}
+
+/// A corner in a patch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerTouch {
+    /// The number of the corner times [`WAYS`], and that of the way.
+    pub number: usize,
+    /// From it to the other body, a unit vector times its share of the force.
+    pub along: Vec3,
 }
 
 /// A face of the surface in place, with the outward normals at its corners.

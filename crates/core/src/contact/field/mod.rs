@@ -17,7 +17,7 @@
 //! with their law; `cover`, `part` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
 //! `support` is what such a search finds; `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all
 //! that follows from it along a `column` of the tangent, `points` all of a patch, which the `nodes` of its face share, `stencil` their
-//! sums for one node, with the share of a vertex of the body, `tip` the vertex of a wedge or a rounding within a face, `corner` the corner of a body, `nearer` what
+//! sums for one node, with the share of a vertex of the body, `tip` the vertex of a wedge or a rounding within a face, `corner` one of the `corners` of a body, `nearer` what
 //! contacts narrower than a face are in space and between bodies, `twist` the slip
 //! over a tool beside which the surface turns; `attempt` and `term` are the ones that equilibrium knows, `stiffen` raises the penalty, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
 //! differs is the cover of a face, which is in `space`, and the pose of a tool.
@@ -27,6 +27,7 @@ mod column;
 pub(super) mod configuration;
 mod contact;
 mod corner;
+mod corners;
 mod cover;
 mod dual;
 mod edge;

@@ -6,8 +6,7 @@
 //! bends it. A node therefore closes when the target touches the part of its faces that is nearer to it than to other nodes: to its
 //! penetration is added by how much the least gap there is less than the mean, so far as the gap is not linear.
 //!
-//! Where an edge of a body in space touches (in the plane its corners are [`corner`](super::corner)s), at which two of its smooth pieces meet, the gap of each is linear and that of both is not: it is that of
-//! both which is looked at, and what the target touches first of the piece of a slot.
+//! Where an edge of a body touches, that is a [`corner`](super::corner) of its own.
 //!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
 //! the mean gap is nearer to that of the curved surface: around a node of a third row no other has a larger gap, and nothing is added to
@@ -23,8 +22,6 @@
 use super::configuration::{Configuration, TargetInPlace};
 use super::cover::FaceInPlace;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
-use super::space::foot;
-use super::surface::BodyEdge;
 use crate::contact::record::entry;
 use crate::system::History;
 use crate::tensor::Vec3;
@@ -32,8 +29,6 @@ use crate::tensor::Vec3;
 /// The mean gap less the least one over the half faces around a node, over the range of what a linear gap leaves: of a parabola
 /// `5/24` over `1/2` at most, with its vertex half a face away, of facets that lean against each other `1/6` over `1/2`.
 const MOST: f64 = 5.0 / 12.0;
-/// That range over the mean gap less that at an edge: of one over the node `1` over `1/3`.
-const EDGE: f64 = 3.0;
 /// That range around a node inside the surface over that on one of its faces, of a parabola.
 const WITHIN: f64 = 4.0;
 /// Where the centre of a node's function lies on the way from it to the middle of a face.
@@ -98,13 +93,11 @@ impl Configuration<'_> {
             let near = |&node: &usize| straight[node] > 0.0 && close(node) && !follows(node) && !curved(node);
             for node in (0..surface.nodes.len()).filter(near) {
                 let Some(around) = self.around(node, piece, (far, depths), &mut gaps) else { continue };
-                let than = |least: f64| gap(node).map_or(0.0, |gap| gap - least);
-                let at_edge = than(around.edge).max(0.0);
-                let more = than(around.least).min(MOST * around.range).max(at_edge);
+                let than = gap(node).map_or(0.0, |gap| gap - around.least);
+                let more = than.min(MOST * around.range);
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
-                    let range = around.range.max(EDGE * at_edge);
-                    let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * range);
+                    let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * around.range);
                     nearer[slot] = Nearer { most, scale, round: around.round };
                     if closed(node) {
                         // What bears is not pushed any farther.
@@ -138,56 +131,15 @@ impl Configuration<'_> {
                 let gap = self.gap_at((&face, number), xi, (piece, range));
                 gaps.extend(gap.map(|gap| PlaceGap { nearest: nearest && gap.nearest, ..gap }));
             }
-            self.at_edges((&face, number, corner), (piece, range), gaps);
             within += WITHIN * part * beyond_linear(&gaps[begin..]).range;
             let [own, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
             center += (own + (middle - own) * CENTRE) * part;
         }
         let Beyond { slope, range, round } = beyond_linear(gaps);
         let leans = |gap: &PlaceGap| if self.contact.is_round(piece) { 0.0 } else { slope.dot(gap.x - center) };
-        let least = |edge: bool| {
-            let half = gaps.iter().filter(|gap| gap.nearest && gap.edge == edge);
-            half.map(|gap| if edge { gap.gap } else { gap.gap - leans(gap) }).fold(f64::INFINITY, f64::min)
-        };
-        let [least, edge] = [false, true].map(least);
-        least.min(edge).is_finite().then_some(Around { least, edge, range: range.max(within), round })
-    }
-
-    /// Adds the places of a face, around its corner, over which edges of a piece of a body lie.
-    fn at_edges(
-        &self,
-        (face, number, corner): (&FaceInPlace, usize, usize),
-        (piece, range): (usize, [f64; 2]),
-        gaps: &mut Vec<PlaceGap>,
-    ) {
-        let (TargetInPlace::Faces(faces), Some(target)) = (&self.target, self.contact.parts.target.as_faces()) else {
-            return;
-        };
-        let surface = &target.surface;
-        let [here, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
-        let farthest = range[1] + 4.0 * (middle - here).norm();
-        let seen = |edge: &&BodyEdge| edge.faces.iter().all(|&other| self.contact.may_touch(number, other));
-        for edge in self.contact.edges_of(piece).filter(seen) {
-            let [from, to] = edge.ends.map(|corner| faces.corners(edge.faces[0])[corner]);
-            for x in PLACES.map(|t| from + (to - from) * t) {
-                if (x - here).norm() > farthest {
-                    continue;
-                }
-                let xi = foot(face.corners(), x);
-                if !face.face.holds(xi, OVER) {
-                    continue;
-                }
-                let at = face.at(face.face.nearest(xi));
-                let (n, functions) = (at.normal.unit(), at.corners.n);
-                let gap = (x - at.x).dot(n);
-                let normal = |other: usize| surface.middle_normal(&surface.faces[other], faces.placed(other));
-                let looks = edge.faces.iter().any(|&other| -normal(other).dot(n) > LEAST_COSINE);
-                if looks && (range[0]..=range[1]).contains(&gap) {
-                    let most = functions[..face.face.corners()].iter().copied().fold(0.0, f64::max);
-                    gaps.push(PlaceGap { x: at.x, n, gap, nearest: functions[corner] >= most - ROUNDED, edge: true });
-                }
-            }
-        }
+        let half = gaps.iter().filter(|gap| gap.nearest);
+        let least = half.map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
+        least.is_finite().then_some(Around { least, range: range.max(within), round })
     }
 
     /// The gap at which a node lies in front of a piece, however far away; zero where nothing of that is in front of it.
@@ -213,13 +165,7 @@ impl Configuration<'_> {
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
-                foot.beyond.is_none().then_some(PlaceGap {
-                    x,
-                    n: foot.normal,
-                    gap: foot.gap,
-                    nearest: true,
-                    edge: false,
-                })
+                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: true })
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
@@ -233,7 +179,7 @@ impl Configuration<'_> {
                     faces_it && together(other) && self.contact.may_touch(number, other)
                 };
                 let (other, hit) = faces.nearest(&ray, range, admits)?;
-                Some(PlaceGap { x, n, gap: hit.gap, nearest: self.contact.piece_of(other) == piece, edge: false })
+                Some(PlaceGap { x, n, gap: hit.gap, nearest: self.contact.piece_of(other) == piece })
             }
         }
     }
@@ -275,17 +221,10 @@ impl Nearer {
     }
 }
 
-/// How far past the edges of a face, in reference coordinates, what lies over it may be: over none of two that meet in a ridge.
-const OVER: f64 = 0.1;
-/// What functions of two corners differ by at a place between them, by rounding.
-const ROUNDED: f64 = 1e-9;
-
 /// The gaps around a node.
 struct Around {
     /// The least over the half faces.
     least: f64,
-    /// The least where edges of bodies lie over them: these touch by themselves, however a face leans.
-    edge: f64,
     /// The range of what a linear gap leaves, and how nearly round that is.
     range: f64,
     round: f64,
@@ -300,8 +239,6 @@ struct PlaceGap {
     gap: f64,
     /// Whether the place is nearer to the node than to others.
     nearest: bool,
-    /// Whether an edge of a body lies over it.
-    edge: bool,
 }
 
 /// Places of a face, and whether they belong to the part that is nearest to a corner.

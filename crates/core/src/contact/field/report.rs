@@ -2,7 +2,7 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
-use super::face::moved;
+use super::face::{FieldFace, moved};
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
@@ -135,8 +135,12 @@ impl FieldContact {
                 (position, normal.unit, support.first().map_or(0, |(face, _)| *face))
             }
             (_, Some(corner)) => {
-                let position =
-                    moved(self.parts.mesh.points[corner.node], &u[self.parts.dofs.displacements(corner.node)]);
+                let flank = corner.flanks[0];
+                let place = |face: &FieldFace| {
+                    let placed = face.placed(&self.parts.mesh, &self.parts.dofs, u);
+                    face.shape(flank.xi).value(placed.nodes())
+                };
+                let position = self.face_of(corner.own, flank.face).map_or(Vec3::zero(), place);
                 let [x, y, z] = std::array::from_fn(|axis| values[entry::POINTS + axis]);
                 let along = Vec3::new(x, y, z).unit() * if corner.own { 1.0 } else { -1.0 };
                 (position, along, values[entry::SEGMENT].max(0.0) as usize)

@@ -2,8 +2,9 @@
 
 use super::configuration::{Configuration, SeenPart, TargetInPlace};
 use super::contact::FieldContact;
-use super::corner::{CornerTouch, Pointing, WAYS};
-use super::cover::Patch;
+use super::corner::{Pointing, SUNK};
+use super::corners::WAYS;
+use super::cover::{CornerTouch, Patch};
 use super::face::{FieldFace, PlacedFace};
 use super::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE};
 use super::stencil::{NodeSums, StencilInPlace};
@@ -64,7 +65,10 @@ impl FieldContact {
         for (k, (corner, ways)) in self.corners.iter().zip(pointings.chunks(WAYS)).enumerate() {
             let touch = |(way, on): (usize, &Pointing)| CornerTouch { number: k * WAYS + way, along: on.along };
             let touches = ways.iter().enumerate().map(touch);
-            let sees = |touch: CornerTouch| Some((touch, now.touched_by(touch, [-corner.size, reach])?));
+            // What comes past the end of a face comes from before it.
+            let deepest =
+                |touch: &CornerTouch| if touch.number.is_multiple_of(WAYS) { corner.size } else { SUNK * corner.size };
+            let sees = |touch: CornerTouch| Some((touch, now.touched_by(touch, [-deepest(&touch), reach])?));
             let Some((touch, (face, hit))) = touches.filter_map(sees).next() else { continue };
             let (patch, place) = self.corner_patch(touch, (face, hit.s));
             let slot = self.nodal_slots() + touch.number;
@@ -86,8 +90,11 @@ impl FieldContact {
                 support.nodes.extend_from_slice(nodes);
             }
             if let (Some((number, corner)), false) = (support.patches.first(), self.parts.surface.plane) {
-                let face = patches[*number].patch.face;
-                support.nodes.extend(self.parts.surface.line(self.parts.surface.field[face][*corner]));
+                let patch = &patches[*number].patch;
+                support.nodes.extend(match patch.corner {
+                    Some(touch) => self.corners[touch.number / WAYS].line(),
+                    None => self.parts.surface.line(self.parts.surface.field[patch.face][*corner]),
+                });
             }
             support.nodes.sort_unstable();
             support.nodes.dedup();

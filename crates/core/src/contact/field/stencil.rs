@@ -5,6 +5,7 @@
 //! is asked; the second adds what turning and moving the stresses does.
 
 use super::contact::FieldContact;
+use super::corners::BodyCorner;
 use super::cover::Patch;
 use super::dual::BLENDED;
 use super::face::{FieldFace, ShapeFunctions};
@@ -221,7 +222,8 @@ impl<'a> StencilInPlace<'a> {
     pub fn line(&self) -> Option<MaterialLine> {
         let surface = &self.at.contact.parts.surface;
         let (patch, corner) = self.patches().next().filter(|_| !surface.plane)?;
-        let nodes = surface.line(surface.field[patch.face][corner]);
+        let of_corner = self.at.contact.corner_of(self.slot).map(BodyCorner::line);
+        let nodes = of_corner.unwrap_or_else(|| surface.line(surface.field[patch.face][corner]));
         let [from, to] = nodes.map(|node| self.at.position(node));
         Some(MaterialLine { d: to - from, nodes })
     }

@@ -6,7 +6,7 @@
 
 use super::attempt::FieldAttempt;
 use super::contact::FieldContact;
-use super::corner::WAYS;
+use super::corners::WAYS;
 use crate::contact::RaisedPenalty;
 use crate::contact::record::entry;
 use crate::system::History;

@@ -184,7 +184,7 @@ impl Term for FieldContact {
     fn name_of(&self, slot: usize) -> String {
         match (self.node_of(slot), self.corner_of(slot)) {
             (Some(node), _) => format!("node {} of contact '{}'", self.parts.surface.nodes[node].node, self.parts.name),
-            (_, Some(corner)) => format!("corner at node {} of contact '{}'", corner.node, self.parts.name),
+            (_, Some(corner)) => format!("corner at node {} of contact '{}'", corner.nodes[0], self.parts.name),
             (None, None) => format!("tip {} of the tool of contact '{}'", self.tip_of(slot) + 1, self.parts.name),
         }
     }

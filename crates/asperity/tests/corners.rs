@@ -165,6 +165,22 @@ fn moved_in(space: &str, parts: &str, rest: &str, body: &str, to: impl Fn([f64; 
     made.unwrap_or_else(|found| panic!("{}", found.render(false))).model
 }
 
+/// A rotation about the origin.
+fn turned(degrees: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    move |[x, y]| [x * cos - y * sin, x * sin + y * cos]
+}
+
+/// A stiff block, of which two sides are a corner and two are led, on a soft one.
+const HARD_ON_SOFT: &str = r#"
+material.h.elastic = { young = 20000.0, poisson = 0.3 }
+material.s.elastic = { young = 1000.0, poisson = 0.3 }
+body.w.material = "h"
+body.b.material = "s"
+group.tip = { of = "w.bottom", with = ["w.left"] }
+group.grip = { of = "w.top", with = ["w.right"] }
+"#;
+
 /// The corner of a stiff block, whose sides lean by such an angle, presses into a soft one, of so many cells: forces on the way.
 fn wedge(degrees: f64, cells: [usize; 2], fine: usize) -> Vec<f64> {
     let parts = format!(
@@ -172,21 +188,17 @@ fn wedge(degrees: f64, cells: [usize; 2], fine: usize) -> Vec<f64> {
         mesh.part.b.rectangle = {{ from = [-15.0, -10.0], to = [15.0, 0.0], cells = [{}, {}], cell = \"quad4\" }}",
         cells[0], cells[1]
     );
-    let rest = r#"
-material.h.elastic = { young = 20000.0, poisson = 0.3 }
-material.s.elastic = { young = 1000.0, poisson = 0.3 }
-body.w.material = "h"
-body.b.material = "s"
-group.tip = { of = "w.bottom", with = ["w.left"] }
-group.grip = { of = "w.top", with = ["w.right"] }
+    let rest = &format!(
+        "{HARD_ON_SOFT}{}",
+        r#"
 contact.c = { surface = "tip", target = "b.top", law.coulomb.friction = 0.2 }
 [[step]]
 increments.count = 12
 displacement."b.bottom" = { x = 0.0, y = 0.0 }
 displacement.grip = { x = 0.0, y = -0.3 }
-"#;
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    let model = moved(&parts, rest, "w", |[x, y]| [x * cos - y * sin, x * sin + y * cos]);
+"#
+    );
+    let model = moved(&parts, rest, "w", turned(degrees));
     columns(&model, &run(&model))["contact.c.force.y"].clone()
 }
 
@@ -220,13 +232,7 @@ fn a_corner_slides_along_a_face() {
             );
             let rest = format!(
                 r#"
-material.h.elastic = {{ young = 20000.0, poisson = 0.3 }}
-material.s.elastic = {{ young = 1000.0, poisson = 0.3 }}
-body.w.material = "h"
-body.b.material = "s"
-group.tip = {{ of = "w.bottom", with = ["w.left"] }}
-group.grip = {{ of = "w.top", with = ["w.right"] }}
-contact.c = {{ surface = "{surface}", target = "{target}", law.coulomb.friction = 0.2{roles} }}
+{HARD_ON_SOFT}contact.c = {{ surface = "{surface}", target = "{target}", law.coulomb.friction = 0.2{roles} }}
 [[step]]
 increments.count = 4
 displacement."b.bottom" = {{ x = 0.0, y = 0.0 }}
@@ -236,8 +242,7 @@ increments.count = 24
 displacement.grip = {{ x = 3.6, y = -0.1 }}
 "#
             );
-            let (sin, cos) = f64::to_radians(degrees).sin_cos();
-            let model = moved(&parts, &rest, "w", |[x, y]| [x * cos - y * sin, x * sin + y * cos]);
+            let model = moved(&parts, &rest, "w", turned(degrees));
             let table = columns(&model, &run(&model));
             let [x, y] = ["x", "y"].map(|axis| table[&format!("contact.c.force.{axis}")].clone());
             let sign = if surface == "tip" { 1.0 } else { -1.0 };
@@ -266,13 +271,7 @@ fn an_edge_in_space_is_a_corner_of_the_plane() {
     let rest = |planes: &str, [surface, target]: [&str; 2], way: f64| {
         format!(
             r#"
-material.h.elastic = {{ young = 20000.0, poisson = 0.3 }}
-material.s.elastic = {{ young = 1000.0, poisson = 0.3 }}
-body.w.material = "h"
-body.b.material = "s"
-group.tip = {{ of = "w.bottom", with = ["w.left"] }}
-group.grip = {{ of = "w.top", with = ["w.right"] }}
-contact.c = {{ surface = "{surface}", target = "{target}", law.frictionless = {{}}, roles = "given" }}
+{HARD_ON_SOFT}contact.c = {{ surface = "{surface}", target = "{target}", law.frictionless = {{}}, roles = "given" }}
 [[step]]
 increments.count = 3
 {planes}
@@ -283,10 +282,6 @@ increments.count = 6
 displacement.grip = {{ x = {way}, y = -0.15 }}
 "#
         )
-    };
-    let turned = |degrees: f64| {
-        let (sin, cos) = degrees.to_radians().sin_cos();
-        move |[x, y]: [f64; 2]| [x * cos - y * sin, x * sin + y * cos]
     };
     let forces = |model: &Model| {
         let table = columns(model, &run(model));

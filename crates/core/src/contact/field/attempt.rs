@@ -190,9 +190,9 @@ impl FieldAttempt<'_> {
 
     /// The face of the other side that a corner saw at the accepted state along the direction in which it points, by its number, and where.
     fn before_corner(&self, touch: CornerTouch) -> Option<(usize, &FieldFace, ShapeFunctions)> {
-        let (own, longest) = (self.contact.corners[touch.number / WAYS].own, 2.0 * self.reach);
-        let (face, hit) = self.before.touched_by(touch, [-longest, longest])?;
-        Some((face, self.contact.face_of(!own, face)?, hit.shape))
+        let own = self.contact.corners[touch.number / WAYS].own;
+        let (face, shape) = self.pointings[touch.number].saw?;
+        Some((face, self.contact.face_of(!own, face)?, shape))
     }
 
     fn recall(&self, at: &NodesInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {

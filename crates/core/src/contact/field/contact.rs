@@ -12,7 +12,7 @@ use crate::mesh::Mesh;
 use crate::system::{Constraints, Dofs, History, Row};
 use crate::tool::{self, ProfileTool, Tip};
 use std::collections::BTreeSet;
-use std::ops::Deref;
+use std::ops::{Deref, Range};
 use std::sync::Arc;
 
 /// What the field may touch.
@@ -138,11 +138,15 @@ impl FieldContact {
     }
     /// Number of stencils: those of the nodes, then those of the feet of a tool's tips, or of corners of bodies.
     pub(super) fn slots(&self) -> usize {
-        self.nodal_slots() + FEET * self.tips().len() + WAYS * self.corners.len()
+        self.tip_slots().end + WAYS * self.corners.len()
     }
     /// Tips of the tool.
     pub(super) fn tips(&self) -> &[Tip] {
         self.parts.target.as_tool().map_or(&[], RigidTool::tips)
+    }
+    /// Stencils of the feet of tips.
+    pub(super) fn tip_slots(&self) -> Range<usize> {
+        self.nodal_slots()..self.nodal_slots() + FEET * self.tips().len()
     }
     /// Number of stencils of nodes.
     pub(super) fn nodal_slots(&self) -> usize {
@@ -201,8 +205,15 @@ impl FieldContact {
     /// that comes first carries the stress (unique roles: Yang & Laursen, Comput. Mech. 41, 2008).
     pub(super) fn may_touch(&self, face: usize, target: usize) -> bool {
         let Some(faces) = self.parts.target.as_faces() else { return true };
+        let first = || self.parts.surface.faces[face].side < faces.surface.faces[target].side;
+        (!self.roles.itself || first()) && self.may_meet(face, target)
+    }
+
+    /// Whether they may touch by a corner of one of them: where a surface touches itself either carries.
+    pub(super) fn may_meet(&self, face: usize, target: usize) -> bool {
+        let Some(faces) = self.parts.target.as_faces() else { return false };
         let (own, other) = (&self.parts.surface.faces[face], &faces.surface.faces[target]);
-        (!self.roles.itself || own.side < other.side) && !own.nodes.iter().any(|node| other.nodes.contains(node))
+        !own.nodes.iter().any(|node| other.nodes.contains(node))
     }
 }
 

@@ -1,4 +1,4 @@
-//! A corner of a body over a face of another, in the plane: node-to-segment contact (Hallquist, Goudreau & Benson, Comput. Meth. Appl.
+//! A corner of a body over a face of another, in space a point of an edge or a vertex: node-to-segment contact (Hallquist, Goudreau & Benson, Comput. Meth. Appl.
 //! Mech. Eng. 51, 1985; Wriggers, Computational Contact Mechanics, 2006) beside the mortar field (Farah, Wall & Popp, Int. J. Numer.
 //! Meth. Eng. 114, 2018).
 //!
@@ -20,6 +20,7 @@ use super::faces::{FaceProjection, FaceRay, LEAST_COSINE, project};
 use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, smoothstep};
 use super::points::Recall;
+use super::surface::FieldSurface;
 use crate::contact::record::entry;
 use crate::system::History;
 use crate::tensor::{BoundingBox, Vec3};
@@ -29,8 +30,10 @@ use crate::tensor::{BoundingBox, Vec3};
 pub struct Pointing {
     /// From it to the other body, a unit vector times its share of the force; zero where it does not touch by itself.
     pub along: Vec3,
-    /// The gap at the accepted state.
+    /// The gap at the accepted state,
     pub gap: f64,
+    /// and the face that it saw there along that direction, by its number, and where.
+    pub saw: Option<(usize, ShapeFunctions)>,
 }
 
 /// A face that a corner may touch: where, how far away that is, its normal, and the angles between which a flank rises from it.
@@ -95,10 +98,14 @@ impl Configuration<'_> {
 
     /// Calls `take` with the faces of the other side that are within `reach` of a corner and may touch it.
     fn across(&self, corner: &BodyCorner, c: Vec3, reach: f64, mut take: impl FnMut(usize, &FieldFace, &PlacedFace)) {
-        let Some(faces) = self.contact.parts.target.as_faces() else { return };
-        let flank = corner.flanks[0].face;
-        let count = if corner.own { faces.surface.faces.len() } else { self.placed.len() };
-        for f in 0..count {
+        let (flank, mut near) = (corner.flanks[0].face, Vec::new());
+        match &self.target {
+            TargetInPlace::Faces(target) if corner.own => {
+                target.near(&BoundingBox { min: c, max: c }, reach, &mut near);
+            }
+            _ => near.extend(0..self.placed.len()),
+        }
+        for f in near {
             let Some((face, placed)) = self.of_side(!corner.own, f) else { continue };
             let is_near = BoundingBox::of(placed.nodes().iter().copied()).distance(c) <= reach;
             let touches = || if corner.own { self.contact.may_meet(flank, f) } else { self.contact.may_meet(f, flank) };
@@ -108,27 +115,30 @@ impl Configuration<'_> {
         }
     }
 
-    /// How the corners touch what lies no farther than `far` in an accepted configuration.
-    pub(super) fn pointings(&self, history: &History, far: f64) -> Vec<Pointing> {
+    /// How the corners touch what lies no farther than `far` in an accepted configuration, and what they see within `reach`.
+    pub(super) fn pointings(&self, history: &History, (far, reach): (f64, f64)) -> Vec<Pointing> {
         let corners = self.contact.corners.iter().enumerate();
-        corners.flat_map(|(number, corner)| self.pointing(corner, self.contact.bears(number, history), far)).collect()
+        let ways = corners.flat_map(|(number, corner)| self.pointing(corner, self.contact.bears(number, history), far));
+        let saw = |(number, on): (usize, Pointing)| {
+            let found = self.touched_by(CornerTouch { number, along: on.along }, [-2.0 * reach, 2.0 * reach]);
+            Pointing { saw: found.map(|(face, hit)| (face, hit.shape)), ..on }
+        };
+        ways.enumerate().map(saw).collect()
     }
 
     fn pointing(&self, corner: &BodyCorner, bears: bool, far: f64) -> [Pointing; WAYS] {
-        let (Some(c), Some(faces)) = (self.place_of(corner), self.contact.parts.target.as_faces()) else {
+        let (Some(c), Some(other)) = (self.place_of(corner), self.contact.side(!corner.own)) else {
             return Default::default();
         };
-        let (plane, mesh) = (self.contact.parts.surface.plane, &self.contact.parts.mesh);
-        let other = if corner.own { &faces.surface } else { &self.contact.parts.surface };
         let deepest = if bears { DEEPEST } else { SUNK } * corner.size;
         let (mut before, mut past): (Vec<Touchable>, Vec<Touchable>) = Default::default();
         self.across(corner, c, far.max(deepest), |f, face, placed| {
             let n = other.middle_normal(face, placed);
-            let Some(hit) = project((face, placed), &FaceRay { x: c, n: -n }, plane) else { return };
+            let Some(hit) = project((face, placed), &FaceRay { x: c, n: -n }, other.plane) else { return };
             let held = face.holds(hit.s, BESIDE) && hit.gap <= far && -hit.gap <= deepest;
             let near = hit.gap.abs() <= PAST * corner.size;
             let beyond = near && !face.holds(hit.s, 0.0) && face.holds(hit.s, FARTHEST);
-            let range = RISES.map(|angle| angle + corner.bend + other.bend(f, mesh));
+            let range = RISES.map(|angle| angle + corner.bend + other.bends[f]);
             let s = face.nearest(hit.s);
             let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range };
             before.extend(held.then_some(touchable));
@@ -139,6 +149,7 @@ impl Configuration<'_> {
         let pointing = |on: Touchable, share: f64| Pointing {
             along: self.normal_in_valley(!corner.own, on.face, on.s) * -share,
             gap: on.gap,
+            saw: None,
         };
         let mut ways = [Pointing::default(); WAYS];
         let first = nearest(&before);
@@ -156,23 +167,23 @@ impl Configuration<'_> {
         ways
     }
 
-    /// How deep a corner lies in the other body, where that is more than a part of its flanks.
-    fn sunk(&self, corner: &BodyCorner) -> Option<f64> {
-        let (c, plane) = (self.place_of(corner)?, self.contact.parts.surface.plane);
+    /// Whether a corner lies in the other body, deeper than a part of its flanks.
+    fn is_sunk(&self, corner: &BodyCorner) -> bool {
+        let (Some(c), surface) = (self.place_of(corner), &self.contact.parts.surface) else { return false };
         let mut nearest = f64::INFINITY;
         self.across(corner, c, corner.size, |_, face, placed| {
-            let [a, b] = face.shape(face.middle()).tangents(placed.nodes(), plane);
-            let hit = project((face, placed), &FaceRay { x: c, n: -a.cross(b).unit() }, plane);
+            let ray = FaceRay { x: c, n: -surface.middle_normal(face, placed) };
+            let hit = project((face, placed), &ray, surface.plane);
             let gap = hit.filter(|hit| face.holds(hit.s, ROUNDED)).map_or(f64::INFINITY, |hit| hit.gap);
             nearest = if gap.abs() < nearest.abs() { gap } else { nearest };
         });
-        (nearest.is_finite() && -nearest > UNSEEN * corner.size).then_some(-nearest)
+        -nearest > UNSEEN * corner.size
     }
 
     /// The first corner that has come to lie in the other body since a state and bears nothing.
     pub(super) fn unseen_corner(&self, before: &Configuration, bears: impl Fn(usize) -> bool) -> Option<usize> {
         let unseen = |&(number, corner): &(usize, &BodyCorner)| {
-            !bears(number) && self.sunk(corner).is_some() && before.sunk(corner).is_none()
+            !bears(number) && self.is_sunk(corner) && !before.is_sunk(corner)
         };
         self.contact.corners.iter().enumerate().find(unseen).map(|(number, _)| number)
     }
@@ -180,19 +191,19 @@ impl Configuration<'_> {
     /// The part that the corners of a face of the surface have of what they stand for over a face of the target: none at a corner of the body
     /// from which the face rises.
     pub(super) fn left(&self, patch: &Patch) -> [f64; CORNERS] {
-        let mut left = [1.0; CORNERS];
-        let (contact, own) = (self.contact, self.contact.corners.iter().filter(|corner| corner.own));
-        for corner in own {
+        let (mut left, contact) = ([1.0; CORNERS], self.contact);
+        if !contact.parts.surface.creased[patch.face] {
+            return left;
+        }
+        let (Some(seen), Some((face, placed))) = (contact.side(false), self.of_side(false, patch.target)) else {
+            return left;
+        };
+        let n = seen.middle_normal(face, placed);
+        for corner in contact.corners.iter().filter(|corner| corner.own) {
             for flank in corner.flanks.iter().filter(|flank| flank.face == patch.face) {
-                let Some(at) = flank.at else { continue };
-                let (Some(c), Some((face, placed))) = (self.place_of(corner), self.of_side(false, patch.target)) else {
-                    continue;
-                };
-                let surface = contact.parts.target.as_faces().map(|faces| &faces.surface);
-                let (n, bend) = surface.map_or((Vec3::zero(), 0.0), |surface| {
-                    (surface.middle_normal(face, placed), surface.bend(patch.target, &contact.parts.mesh))
-                });
-                left[at] = 1.0 - self.rises((corner, flank), c, (n, RISES.map(|angle| angle + corner.bend + bend)))[1];
+                let (Some(at), Some(c)) = (flank.at, self.place_of(corner)) else { continue };
+                let range = RISES.map(|angle| angle + corner.bend + seen.bends[patch.target]);
+                left[at] = 1.0 - self.rises((corner, flank), c, (n, range))[1];
             }
         }
         left
@@ -237,9 +248,9 @@ impl Configuration<'_> {
     /// The normal of a face of one of both sides at a place, turned towards that of both faces of a valley the nearer to its bottom: pressed into it, a
     /// corner may lie before neither.
     fn normal_in_valley(&self, own: bool, f: usize, s: [f64; 2]) -> Vec3 {
-        let target = self.contact.parts.target.as_faces().map(|faces| &faces.surface);
-        let surface = if own { Some(&self.contact.parts.surface) } else { target };
-        let (Some(surface), Some((face, placed))) = (surface, self.of_side(own, f)) else { return Vec3::zero() };
+        let (Some(surface), Some((face, placed))) = (self.contact.side(own), self.of_side(own, f)) else {
+            return Vec3::zero();
+        };
         let [a, b] = face.shape(s).tangents(placed.nodes(), surface.plane);
         let (n, middle) = (a.cross(b).unit(), face.shape(face.middle()).value(placed.nodes()));
         let of = |g: usize| self.of_side(own, g).map_or(*placed, |(_, placed)| *placed);
@@ -276,17 +287,14 @@ fn place_along(face: &FieldFace, xi: [f64; 2], part: f64) -> [f64; 2] {
 }
 
 impl FieldContact {
-    /// A face of the surface, or else of a target of bodies.
-    pub(super) fn face_of(&self, own: bool, f: usize) -> Option<&FieldFace> {
-        let surface = if own { &self.parts.surface } else { &self.parts.target.as_faces()?.surface };
-        surface.faces.get(f)
+    /// The surface, or else a target of bodies.
+    fn side(&self, own: bool) -> Option<&FieldSurface> {
+        if own { Some(&self.parts.surface) } else { self.parts.target.as_faces().map(|faces| &faces.surface) }
     }
 
-    /// Whether a face of the surface and one of the target may touch by a corner of one of them: in self-contact either carries.
-    fn may_meet(&self, face: usize, target: usize) -> bool {
-        let Some(faces) = self.parts.target.as_faces() else { return false };
-        let (own, other) = (&self.parts.surface.faces[face], &faces.surface.faces[target]);
-        own.side != other.side && !own.nodes.iter().any(|node| other.nodes.contains(node))
+    /// A face of one of them.
+    pub(super) fn face_of(&self, own: bool, f: usize) -> Option<&FieldFace> {
+        self.side(own)?.faces.get(f)
     }
 
     /// The patch of a corner that sees a face, and its place on the face of the surface.
@@ -315,7 +323,7 @@ impl FieldContact {
     pub(super) fn known_pointings(&self, history: &History) -> Vec<Pointing> {
         let of = |slot: usize| {
             let [x, y, z] = std::array::from_fn(|axis| history.slot(slot)[entry::POINTS + axis]);
-            Pointing { along: Vec3::new(x, y, z), gap: 0.0 }
+            Pointing { along: Vec3::new(x, y, z), ..Pointing::default() }
         };
         (self.nodal_slots()..self.nodal_slots() + WAYS * self.corners.len()).map(of).collect()
     }

@@ -62,7 +62,7 @@ impl BodyCorner {
         };
         let make = |flanks: Vec<Flank>, nodes: Vec<usize>, edge: Option<[usize; 2]>, area: f64| {
             let sizes = flanks.iter().map(|flank| surface.size(flank.face, mesh));
-            let bends = flanks.iter().map(|flank| surface.bend(flank.face, mesh));
+            let bends = flanks.iter().map(|flank| surface.bends[flank.face]);
             let (size, bend) = (sizes.fold(f64::INFINITY, f64::min), bends.fold(0.0, f64::max));
             Self { own, flanks, nodes, edge, area, size, bend }
         };

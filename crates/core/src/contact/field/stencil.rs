@@ -174,17 +174,10 @@ impl<'a> StencilInPlace<'a> {
 
     /// What its history knows it by: of a foot of a tip, or a corner, the face on which that lies; of a node over a body a face that it sees.
     pub fn segment(&self) -> f64 {
-        let over_faces = self.at.contact.parts.target.as_faces().is_some();
-        self.patches().next().map_or(0.0, |(patch, _)| match patch {
-            Patch { tip: Some(_), face, .. } | Patch { corner: Some(_), face, .. } => *face as f64,
-            _ => {
-                if over_faces {
-                    patch.target as f64
-                } else {
-                    0.0
-                }
-            }
-        })
+        let Some((patch, _)) = self.patches().next() else { return 0.0 };
+        let by_point = patch.tip.is_some() || patch.corner.is_some();
+        let seen = self.at.contact.parts.target.as_faces().map_or(0, |_| patch.target);
+        (if by_point { patch.face } else { seen }) as f64
     }
 
     /// The faces of its patches.

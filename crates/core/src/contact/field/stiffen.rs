@@ -6,7 +6,6 @@
 
 use super::attempt::FieldAttempt;
 use super::contact::FieldContact;
-use super::corners::WAYS;
 use crate::contact::RaisedPenalty;
 use crate::contact::record::entry;
 use crate::system::History;
@@ -83,8 +82,7 @@ impl FieldAttempt<'_> {
         let raised = options.raised.filter(|_| !self.law.is_compliant() && taken.iter().all(|taken| *taken > 0.0));
         let Some(RaisedPenalty { from, most }) = raised else { return false };
         // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
-        let of_tips = self.contact.slots() - WAYS * self.contact.corners.len();
-        let mut tips = closed(new, self.contact.nodal_slots()..of_tips).peekable();
+        let mut tips = closed(new, self.contact.tip_slots()).peekable();
         if tips.peek().is_some() {
             let sunk = |(slot, values): (usize, &[f64])| {
                 let radius = self.contact.tips()[self.contact.tip_of(slot)].radius;

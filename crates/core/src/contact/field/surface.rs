@@ -68,6 +68,8 @@ pub struct FieldSurface {
     pub ending: Vec<bool>,
     /// and whether it turns smoothly at one of its corners.
     pub curved: Vec<bool>,
+    /// The largest angle of each face to those beside it of its smooth piece before any motion.
+    pub bends: Vec<f64>,
     /// For each face of any of these what makes the functions of its corners biorthogonal to these.
     pub duals: Vec<Option<DualFactors>>,
     /// Whether faces are edges of a plane model.
@@ -191,6 +193,11 @@ impl FieldSurface {
             (self.creased[f] || self.ending[f] || curved[f]).then(|| self.dual(f, corners, mesh))?
         };
         self.duals = (0..self.faces.len()).map(dual).collect();
+        let bend = |f: usize| {
+            let around = field[f][..self.faces[f].corners()].iter().flat_map(|&node: &usize| &nodes[node].support);
+            around.map(|&(g, _)| normals[f].dot(normals[g]).clamp(-1.0, 1.0).acos()).fold(0.0, f64::max)
+        };
+        self.bends = (0..self.faces.len()).map(bend).collect();
         (self.pieces, self.nodes, self.field, self.curved) = (pieces.labels(), nodes, field, curved);
     }
 
@@ -369,14 +376,6 @@ impl FieldSurface {
             }
         }
         edges
-    }
-
-    /// The largest angle of a face to those beside it of its smooth piece before any motion.
-    pub fn bend(&self, face: usize, mesh: &Mesh) -> f64 {
-        let normal = |f: usize| self.middle_normal(&self.faces[f], &self.faces[f].at_rest(mesh));
-        let nodes = self.field[face][..self.faces[face].corners()].iter();
-        let beside = nodes.flat_map(|&node| self.nodes[node].support.iter().map(|&(other, _)| other));
-        beside.map(|other| normal(face).dot(normal(other)).clamp(-1.0, 1.0).acos()).fold(0.0, f64::max)
     }
 
     /// Size of a face, a length: its chord, or the root of its area.

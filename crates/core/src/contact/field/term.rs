@@ -146,7 +146,8 @@ impl Term for FieldContact {
         let normal = self.kept_penalty(history);
         let (far, depths) = (reach(self.longest, &accepted.last_change), self.depths(&accepted.u));
         let (bonds, mut nearer) = (self.bonds(&*law, history, normal), before.nearer(history, (far, &depths)));
-        let before_held = before.held(at.step);
+        let reach = self.reach(&accepted.last_change);
+        let idle = self.idle(history).into_iter().zip(before.held(at.step)).map(|(idle, held)| idle || held);
         // What is glued does not begin to touch.
         nearer.iter_mut().zip(&bonds).filter(|(_, bond)| **bond).for_each(|(nearer, _)| *nearer = Nearer::default());
         Ok(Box::new(FieldAttempt {
@@ -154,12 +155,12 @@ impl Term for FieldContact {
             history,
             accepted: &accepted.u,
             tips_before: self.tips_before(&before, history),
-            pointings: before.pointings(history, far),
+            pointings: before.pointings(history, (far, reach)),
             duals: self.dual_limits(&before.placed, history),
             nearer,
             before,
             depths,
-            reach: self.reach(&accepted.last_change),
+            reach,
             ahead: accepted.ahead(at.dt),
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
             augmented: 0,
@@ -172,7 +173,7 @@ impl Term for FieldContact {
             law,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
-            idle: self.idle(history).into_iter().zip(before_held).map(|(idle, held)| idle || held).collect(),
+            idle: idle.collect(),
             bore: (0..self.slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0),
             far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },

@@ -176,3 +176,45 @@ traction."c.right" = {{ x = 5.0 }}
         assert!(missing.abs() < 1e-3 * stored, "{second}: {missing} {stored}");
     }
 }
+
+/// A block without weight that was pressed between platens stays on the lower one when the upper is lifted, and an elastic beam on its supports when it is
+/// straight again: nothing takes either along.
+#[test]
+fn what_is_let_go_does_not_follow_the_tool() {
+    let block = r#"
+mesh.part.b.rectangle = { from = [0.0, 0.0], to = [10.0, 4.0], cells = [10, 4], cell = "quad4" }
+material.m.elastic = { young = 1000.0, poisson = 0.3 }
+tool.p.profile = [{ line = [[-10.0, 4.0], [20.0, 4.0]] }]
+tool.f.profile = [{ line = [[20.0, 0.0], [-10.0, 0.0]] }]
+contact.f = { surface = "b.bottom", target = "f", law.coulomb = { friction = 0.1 } }
+group.mid = { of = "b.top", x = [4.9, 5.1] }
+[[step]]
+motion.p = { y = -0.2 }
+[[step]]
+motion.p = { y = 5.0 }
+"#;
+    let beam = r#"
+mesh.part.b.rectangle = { from = [-40.0, 0.0], to = [40.0, 4.0], cells = [40, 4], cell = "quad8" }
+material.m.elastic = { young = 210e3, poisson = 0.3 }
+group.mid = { of = "b.top", x = [-0.01, 0.01] }
+tool.l.profile = [{ arc = [[-25.0, -5.0], [-30.0, 0.0], [-35.0, -5.0]] }]
+tool.r.profile = [{ arc = [[35.0, -5.0], [30.0, 0.0], [25.0, -5.0]] }]
+tool.p.profile = [{ arc = [[-5.0, 9.0], [0.0, 4.0], [5.0, 9.0]] }]
+contact.l = { surface = "b.bottom", target = "l", law.coulomb = { friction = 0.1 } }
+contact.r = { surface = "b.bottom", target = "r", law.coulomb = { friction = 0.1 } }
+[[step]]
+motion.p = { y = -3.0 }
+displacement.mid = { x = 0.0 }
+[[step]]
+motion.p = { y = 2.0 }
+"#;
+    for (parts, far) in [(block, 0.02), (beam, 0.05)] {
+        let deck = format!(
+            "version = 1\nspace = \"plane-strain\"\nbody.b.material = \"m\"\ncontact.p = {{ surface = \"b.top\", target = \"p\", law.coulomb = {{ friction = 0.1 }} }}\n{parts}"
+        );
+        let model = model(&deck, &[]);
+        let state = run(&model).states.pop().unwrap();
+        let height = model.mesh.groups["mid"].nodes.iter().map(|&node| state.u[2 * node + 1]).fold(0.0, f64::max);
+        assert!(height.abs() < far, "{height}");
+    }
+}

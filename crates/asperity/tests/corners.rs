@@ -341,6 +341,28 @@ traction."upper.right" = {{ y = -0.357142857 }}
         let force = force(cells);
         assert!((0.1..0.5).contains(&force), "{cells:?}: {force}");
     }
+    // In space, of second degree, 0.53. Nodes between the corners of the clamp were looked for at another place: 170 to 506.
+    for cells in [[9, 1, 10, 2], [12, 3, 10, 2], [10, 1, 10, 1], [17, 3, 13, 2]] {
+        let [a, b, c, d] = cells;
+        let deck = format!(
+            r#"
+version = 1
+space = "solid"
+mesh.part.lower.box = {{ from = [0.0, -1.0, 0.0], to = [40.0, 0.0, 4.0], cells = [{a}, 1, {b}], cell = "hex20" }}
+mesh.part.upper.box = {{ from = [0.0, 0.0, 0.0], to = [40.0, 1.4, 4.0], cells = [{c}, 1, {d}], cell = "hex20" }}
+material.s.elastic = {{ young = 210e3, poisson = 0.0 }}
+body.lower.material = "s"
+body.upper.material = "s"
+contact.c = {{ surface = "upper.bottom", target = "lower.top", law.frictionless = {{}} }}
+[[step]]
+displacement."lower.left" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+displacement."upper.left" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+traction."upper.right" = {{ y = -0.357142857 }}
+"#
+        );
+        let force = forces(&deck)[1];
+        assert!((0.3..10.0).contains(&force), "{cells:?}: {force}");
+    }
 }
 
 /// A serpentine spring of thin legs is squeezed, all of its sides in one group. A ray inward that grazed another leg took the end of that for the end of its

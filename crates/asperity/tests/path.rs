@@ -417,6 +417,54 @@ traction."column.left" = { x = 0.001 }
     }
 }
 
+/// A slender column with a side load, shortened to seven times its Euler load, clamped at both ends and under a platen with friction: the second increment goes past
+/// the first mode, and came to the straight shape, of two negative eigenvalues, whose determinant is positive.
+#[test]
+fn a_column_does_not_stay_straight_past_two_modes() {
+    let deck = |height: f64, rest: &str| {
+        format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.c.rectangle = {{ from = [-1.0, 0.0], to = [1.0, {height}], cells = [2, {}], cell = "quad8" }}
+material.m.elastic = {{ young = 1e5, poisson = 0.3 }}
+body.c.material = "m"
+group.mid = {{ of = "c.left", y = [{}, {}] }}
+{rest}"#,
+            height / 2.0,
+            height / 2.0 - 1.0,
+            height / 2.0 + 1.0
+        )
+    };
+    let clamped = r#"
+[[step]]
+displacement."c.bottom" = { x = 0.0, y = 0.0 }
+displacement."c.top" = { x = 0.0, y = -1.0 }
+force.mid = { x = 0.01, amplitude = [[0.0, 1.0], [1.0, 1.0]] }
+"#;
+    let platen = r#"
+tool.p.profile = [{ line = [[-20.0, 60.0], [20.0, 60.0]] }]
+contact.c = { surface = "c.top", target = "p", law.coulomb = { friction = 0.3 } }
+[[step]]
+displacement."c.bottom" = { x = 0.0, y = 0.0 }
+motion.p = { y = -2.0 }
+force.mid = { x = 0.3, amplitude = [[0.0, 1.0], [1.0, 1.0]] }
+"#;
+    // In increments of a fiftieth and of a hundredth: 291.7 and 465.
+    for (height, rest, force) in [(100.0, clamped, 291.7), (60.0, platen, 465.0)] {
+        let model = model(&deck(height, rest), &[]);
+        let found = support::columns(&model, &run(&model))["reaction.c.bottom.y"].last().copied().unwrap();
+        assert!((found / force - 1.0).abs() < 0.02, "{height}: {found}");
+    }
+    // Without an imperfection it stays straight, and is doubted.
+    let model = model(&deck(100.0, &clamped.replace("0.01", "0.0")), &[]);
+    let keep = run(&model);
+    let turns: Vec<_> = keep.attempts.iter().filter_map(|attempt| attempt.turn.as_ref()).collect();
+    let last = turns.last().unwrap();
+    assert!(turns.len() > 1 && last.negative[1] > last.negative[0], "{turns:?}");
+    assert!(support::certificate(&model, &keep).figure("unstable").unwrap() > 1.0);
+}
+
 /// Rubber under a pressure all round of 50 times its shear modulus is stable. The matrix of a first iteration turns with the stress before the
 /// increment, under the pressure after it, and had 10 negative eigenvalues.
 #[test]

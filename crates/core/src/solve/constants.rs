@@ -40,6 +40,8 @@ pub mod regularisation {
     /// Gap over a cell that a node may have whose faces touch: the mean, weighted by its function, of what a corner with flanks of 45
     /// degrees leaves.
     pub const CLOSE: f64 = 1.0 / 3.0;
+    /// Part of the largest entry of a motion that meets no stiffness from which on an entry is more than rounding.
+    pub const MOVED: f64 = 1e-6;
 }
 
 /// Memory beside the factor, measured on runs.
@@ -314,6 +316,9 @@ pub mod stability {
     pub const SAME: f64 = 0.9;
     /// Amplitude of a mode over the model's size below which nothing tells to which side a path turns.
     pub const TOWARDS: f64 = 1e-6;
+    /// Part of what the increment before led along a mode, carried on, from which on one that leads back turns against it. Beyond a
+    /// bifurcation the branch that is not stable has gone back almost all of it.
+    pub const BACKWARDS: f64 = 0.25;
 }
 
 /// The linear step and the line search.

@@ -1,10 +1,10 @@
 //! What is free: motions that meet no stiffness, in an iterate and in a solution.
 
-use super::constants::regularisation::{CLOSE, EASED, MOST_EASED, RESISTANCE, SMALL};
+use super::constants::regularisation::{CLOSE, EASED, MOST_EASED, MOVED, RESISTANCE, SMALL};
 use super::linear::LinearError;
 use super::newton::{IfFree, Newton, SolveError, largest};
 use super::observer::AttemptRecord;
-use crate::system::Tangent;
+use crate::system::{Tangent, Whole};
 use crate::{Error, Failure, FailureKind};
 
 /// The failure that motions without stiffness are, in words.
@@ -23,6 +23,7 @@ impl Newton<'_> {
     /// The solution itself must be stable without it.
     pub(super) fn regularise(&mut self, motions: &[Vec<f64>]) {
         self.regularised = self.name_motions(motions);
+        self.was_singular = true;
         let small = SMALL * EASED.powi(self.steady.min(MOST_EASED)) * self.stiffness;
         let pattern = self.memory.workspace.pattern();
         for place in (0..pattern.rows()).filter_map(|row| pattern.diagonal(row)) {
@@ -52,33 +53,41 @@ impl Newton<'_> {
         if self.regularised.is_empty() {
             return Ok(());
         }
-        self.regularised = self.rigid_modes(u, reference)?;
+        let loose = self.rigid_modes(u, reference)?;
+        self.regularised = self.name_motions(&loose);
         if self.regularised.is_empty() || self.holds_still() {
             return Ok(());
         }
         Err(unheld(self.regularised.join("; ")).into())
     }
 
-    /// Whether the first guess, which left no force unbalanced, carries something on that nothing holds any more: no matrix
-    /// was solved, and a body that has lost its contact would drift on as it last moved. A contact that lets go in the
-    /// iterations is judged likewise, since the matrix that was solved last may still have held it.
+    /// Whether the first guess carries something on that nothing holds any more, a body that has lost its contact and would drift on as it
+    /// last moved: the guess left no force unbalanced, so that no matrix was solved, or one that was solved from it was singular. A contact
+    /// that lets go in the iterations is judged likewise, since the matrix that was solved last may still have held it.
+    ///
+    /// The iterate to begin from then: what is free is where it was, all else where it came to, so that nothing that goes away takes it along.
     ///
     /// # Errors
     /// What is free in words, unless it is to be held.
-    pub(super) fn drifts(&mut self, u: &[f64], record: &AttemptRecord, reference: f64) -> Result<bool, SolveError> {
+    pub(super) fn at_rest(
+        &mut self,
+        u: &[f64],
+        record: &AttemptRecord,
+        reference: f64,
+    ) -> Result<Option<Vec<f64>>, SolveError> {
         let guessed = record.iterations.len() == 1;
-        if !guessed && !self.lets_go(record) || !self.opened().any(|opened| opened) {
-            return Ok(false);
+        let lets_go = self.lets_go(record);
+        if !guessed && !lets_go && !self.was_singular || !self.opened().any(|opened| opened) {
+            return Ok(None);
         }
         self.complete(u, None)?;
-        let motions = self.rigid_modes(u, reference)?;
-        let hold = self.holds_still();
-        if motions.is_empty() || hold {
-            let drifts = guessed && !motions.is_empty();
+        let loose = self.rigid_modes(u, reference)?;
+        let motions = self.name_motions(&loose);
+        if motions.is_empty() || self.holds_still() {
             self.regularised = motions;
             // What was factorised last may be singular.
             self.system.invalidate_factor();
-            return Ok(drifts);
+            return Ok((!loose.is_empty()).then(|| self.without(&loose, u)));
         }
         let text = format!("{}: nothing holds it any more at time {:.4}", motions.join("; "), self.at.time);
         if !guessed {
@@ -87,6 +96,20 @@ impl Newton<'_> {
         Err(SolveError::End(unheld(format!(
             "{text}; support it, keep it in contact, or leave it where it is by `solver.if_free = \"hold\"`"
         ))))
+    }
+
+    /// `u` with the parts and tools that motions move where they were when the increment began.
+    fn without(&self, motions: &[Vec<f64>], u: &[f64]) -> Vec<f64> {
+        let (mut u, dofs) = (u.to_vec(), &self.problem.dofs);
+        let mut back = |dof: usize| u[dof] = self.state.u[dof];
+        for motion in motions.iter().map(|motion| self.expanded(motion)) {
+            let least = MOVED * largest(motion.iter().copied());
+            let moves = |dof: &usize| motion[*dof].abs() > least;
+            let of_whole = |whole: &Whole| whole.nodes().flat_map(|node| dofs.displacements(node)).collect::<Vec<_>>();
+            self.problem.wholes.iter().map(of_whole).filter(|all| all.iter().any(moves)).flatten().for_each(&mut back);
+            (dofs.node(dofs.nodes())..dofs.count()).filter(moves).for_each(&mut back);
+        }
+        u
     }
 
     /// For each term with contact, whether all of it is open.
@@ -103,8 +126,8 @@ impl Newton<'_> {
     }
 
     /// Motions that meet no stiffness at `u`, nor a force when they go on further than the increment did, as where everything
-    /// slips and would slip back; in words. The evaluation is then that of `u`.
-    fn rigid_modes(&mut self, u: &[f64], reference: f64) -> Result<Vec<String>, SolveError> {
+    /// slips and would slip back. The evaluation is then that of `u`.
+    fn rigid_modes(&mut self, u: &[f64], reference: f64) -> Result<Vec<Vec<f64>>, SolveError> {
         let motions = match self.factorise_matrix() {
             Err(LinearError::Singular(motions)) => motions,
             factorised => {
@@ -123,7 +146,7 @@ impl Newton<'_> {
         }
         self.evaluate(u, None, self.tangent())?;
         self.free_is_close = self.are_close(u, &loose)?;
-        Ok(self.name_motions(&loose))
+        Ok(loose)
     }
 
     /// Whether each of these motions at `u` moves a place of a body that lies as close to what it may touch as one may whose faces touch

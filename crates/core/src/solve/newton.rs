@@ -184,6 +184,8 @@ pub struct Newton<'a> {
     pub(super) free_is_close: bool,
     /// Motions that the last matrix was regularised against, in words.
     pub(super) regularised: Vec<String>,
+    /// Whether any matrix was.
+    pub(super) was_singular: bool,
     /// Iterations in a row over which no contact changed.
     pub(super) steady: i32,
     /// Whether contact points that were closed are held so.
@@ -295,6 +297,7 @@ impl<'a> Newton<'a> {
             strict: false,
             free_is_close: false,
             regularised: Vec::new(),
+            was_singular: false,
             steady: 0,
             holding: false,
             medium: None,
@@ -314,10 +317,12 @@ impl<'a> Newton<'a> {
             self.iterate(&mut at, Goal::Equilibrium, &mut sequence, (&mut *record, &mut *observer))?
         {
             let u = &at.0;
-            if !still && self.path.is_none() && self.drifts(u, record, norms.reference[0])? {
-                at = self.begin(self.state.u.clone())?;
-                still = true;
-                continue;
+            if !still && self.path.is_none() {
+                if let Some(begin) = self.at_rest(u, record, norms.reference[0])? {
+                    at = self.begin(begin)?;
+                    still = true;
+                    continue;
+                }
             }
             self.is_stable(u, norms.reference[0])?;
             if !self.augment(u)? {

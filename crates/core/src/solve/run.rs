@@ -185,9 +185,10 @@ impl<'a> Run<'a> {
                         wanted = 0.5 * dt;
                         continue;
                     }
-                    let follows = !relaxing && step.arc_length.is_none() && !self.contact_bears();
+                    let follows = !relaxing && step.arc_length.is_none();
                     let may_return = returns < RETURNS && follows && step.may_halve(dt);
-                    if may_return && self.goes_back(step, &converged, dt) {
+                    let bears = self.contact_bears();
+                    if may_return && !bears && self.goes_back(step, &converged, dt) {
                         record.failure =
                             Some("it goes back on the way that the increments before it went, as no path does".into());
                         observer.attempt(&record);
@@ -218,6 +219,7 @@ impl<'a> Run<'a> {
                             record.turn = self.look_again(turn, (&record, &converged.u), before.clone());
                         }
                         let crosses = |turn: &Turn| turn.crosses(&self.state, (&converged.u, dt), self.problem.size);
+                        let may_return = may_return && (!bears || keeps_contact(&record));
                         if may_return && record.turn.as_ref().is_some_and(crosses) {
                             (self.state.signs, self.state.softest) = before;
                             self.stability.forget_last();
@@ -646,4 +648,11 @@ fn balance(state: &State) -> f64 {
 fn exchanged(state: &State) -> [f64; 2] {
     let sum = |of: fn(&Energies) -> f64| state.energies.iter().map(of).sum();
     [sum(Energies::taken), sum(|energies| energies.supplied)]
+}
+
+/// Whether as many places touch at the end of an attempt as at its first guess: contact that lets go may snap to and fro.
+fn keeps_contact(record: &AttemptRecord) -> bool {
+    let ends = [record.iterations.first(), record.iterations.last()];
+    let open = ends.map(|line| line.map(|line| line.branches.iter().map(|counts| counts.first()).collect::<Vec<_>>()));
+    open[0] == open[1]
 }

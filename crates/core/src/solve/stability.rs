@@ -9,7 +9,7 @@
 //! not the one that the last pivots said, this matrix is factorised and counted. Increments are passed over in which the quotient,
 //! carried on in time, keeps more than half of itself.
 
-use super::constants::stability::{BEGUN, CHANGED, FOLLOWED, KEPT, PASSED, SAME, SETTLED, TOWARDS};
+use super::constants::stability::{BACKWARDS, BEGUN, CHANGED, FOLLOWED, KEPT, PASSED, SAME, SETTLED, TOWARDS};
 use super::linear::LinearSystem;
 use super::newton::Memory;
 use super::observer::AttemptRecord;
@@ -50,21 +50,26 @@ impl std::fmt::Display for Turn {
             true => write!(f, ": {before} negative eigenvalues of the stiffness before and {after} after")?,
             false => write!(f, ": the determinant of the stiffness changes its sign")?,
         }
+        if !self.counted && after > 1 {
+            write!(f, " once more, and its symmetric part has {after} negative eigenvalues")?;
+        }
         write!(f, "; the mode is largest at {}", self.largest)
     }
 }
 
 impl Turn {
-    /// Whether the way to `u` over which stability was lost leads back along the mode, farther than the increment before led along it: a
-    /// shape that is not perfect leaves towards one side, and Newton's method has come to the branch beyond, which is not stable.
+    /// Whether the way to `u` over which stability was lost leads back along the mode, by a good part of what the increment before led along it:
+    /// a shape that is not perfect leaves towards one side, and Newton's method has come to the branch beyond, which is not stable. Of a first
+    /// increment nothing tells the side: one that is shorter does.
     pub(super) fn crosses(&self, state: &State, (u, dt): (&[f64], f64), size: f64) -> bool {
         if self.negative[1] < self.negative[0] || state.last_dt == 0.0 {
-            return false;
+            return self.negative[1] > self.negative[0];
         }
         let change =
             u.iter().zip(&state.u).zip(&self.mode).map(|((now, before), mode)| (now - before) * mode).sum::<f64>();
         let carried = dot(&state.last_change, &self.mode) * (dt / state.last_dt);
-        change * carried < 0.0 && change.abs() > carried.abs().max(TOWARDS * size * dot(&self.mode, &self.mode))
+        change * carried < 0.0
+            && change.abs() > (BACKWARDS * carried.abs()).max(TOWARDS * size * dot(&self.mode, &self.mode))
     }
 }
 
@@ -203,6 +208,20 @@ impl Stability {
         factorised.ok().and_then(|()| self.count(state, look))
     }
 
+    /// Negative eigenvalues of the symmetric part of a matrix that is factorised, where all of it is known here. Its own factor is there again
+    /// after that.
+    fn negative_in_symmetric_part(&mut self, look: &mut Look) -> Option<usize> {
+        let pattern = look.memory.workspace.pattern();
+        if pattern.rows() != look.constraints().free_count() || look.sprung.is_some() {
+            return None;
+        }
+        self.counted += 1;
+        let factorised = look.system.factorise(&pattern.symmetric_part(look.values)).ok();
+        let signs = look.system.signs().filter(|signs| factorised.is_some() && signs.symmetric);
+        look.system.factorise(look.values).ok()?;
+        signs.map(|signs| signs.negative)
+    }
+
     /// Takes the signs of the factor there is.
     fn count(&mut self, state: &mut State, look: &mut Look) -> Option<Turn> {
         let (problem, record) = (look.problem, look.record);
@@ -225,6 +244,12 @@ impl Stability {
         let counted = same.is_some_and(|last| last.symmetric && symmetric);
         let changed =
             same.filter(|last| if counted { last.negative != negative } else { last.negative % 2 != negative % 2 });
+        // The second of them makes the determinant positive again.
+        if let Some(last) = changed.filter(|last| !counted && !symmetric && last.negative > 0) {
+            let all = self.negative_in_symmetric_part(look).filter(|all| *all > last.negative);
+            negative = all.map_or(negative, |all| all - (all + negative) % 2);
+            state.signs = Some(Signs { negative, ..now });
+        }
         // Something of every mode.
         let any = |k: usize| ((k + 1) as f64 * 1.618_033_988_749_895).fract() - 0.5;
         let begin = || (0..constraints.free_count()).map(any).collect();

@@ -57,6 +57,18 @@ impl Csr {
             |row: usize| (self.starts[row]..self.starts[row + 1]).map(|at| values[at] * x[self.columns[at]]).sum();
         (0..x.len()).map(row).collect()
     }
+    /// The symmetric part of a square matrix of this pattern, in which each entry has its mirror.
+    pub fn symmetric_part(&self, values: &[f64]) -> Vec<f64> {
+        let rows = 0..self.starts.len() - 1;
+        let entries = rows.flat_map(|row| (self.starts[row]..self.starts[row + 1]).map(move |at| (row, at)));
+        let mean = |(row, at): (usize, usize)| {
+            let column = self.columns[at];
+            let mirror =
+                self.columns[self.starts[column]..self.starts[column + 1]].partition_point(|&other| other < row);
+            0.5 * (values[at] + values[self.starts[column] + mirror])
+        };
+        entries.map(mean).collect()
+    }
     /// The pattern of `groups` after elimination of the constrained unknowns, or its rows `own`.
     pub fn build(constraints: &Constraints, groups: &Couplings, own: Range<usize>) -> Self {
         Self::of_rows(constraints.free_count(), own, &Reduced::new(constraints, groups))

@@ -150,6 +150,13 @@ pub static FIGURES: &[Figure] = &[
          size of the model.",
         "prescribed displacements, control = \"arc-length\" or smaller increments: past a limit load it may be a remote equilibrium",
     ),
+    largest("unstable", "negative eigenvalues of the stiffness").limited(
+        "0",
+        "Negative eigenvalues of the stiffness in equilibrium (of one that is not symmetric one for a negative determinant): any small \
+         disturbance leaves such a state. Not asked where a path is followed by arc length.",
+        "a small load or a shape along the mode (modes.pvd), so that it leaves to the side to which it is bent, with smaller increments; or control = \
+         \"arc-length\"",
+    ),
     largest("hourglass", "unresisted part of motion"),
     largest("small_strain", "gradient in small strain"),
 ];

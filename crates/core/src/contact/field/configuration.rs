@@ -96,8 +96,9 @@ impl Configuration<'_> {
         let is_held = |nodes: &[usize]| nodes.iter().all(|node| held.contains(node));
         for (number, node) in surface.nodes.iter().enumerate().filter(|(_, node)| held.contains(&node.node)) {
             let moves = node.support.iter().any(|&(f, _)| !is_held(&surface.faces[f].nodes));
-            let x = node.support.first().map(|&(f, corner)| self.placed[f].nodes()[corner]);
-            let Some(x) = x.filter(|_| moves) else { continue };
+            let Some(&(f, corner)) = node.support.first().filter(|_| moves) else { continue };
+            let face = self.face(f);
+            let x = face.at(face.face.corner_place(corner)).x;
             let size = contact.size_at(contact.slot(number, 0));
             for n in [self.normals[number], -self.normals[number]] {
                 target.meet(&FaceRay { x, n }, [0.0, size], |face, hit| {

@@ -23,6 +23,9 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let part = |left: f64| if loaded { left / in_play } else { 0.0 };
     let scale = if loaded { in_play } else { 0.0 };
     frame.certify(Reading::new("leap", "", state.leap));
+    if let Some(signs) = state.signs.filter(|_| !source.parts.follows) {
+        frame.certify(Reading::new("unstable", "", signs.negative as f64));
+    }
     frame.certify(Reading::new("equilibrium_error", "", left).over(scale));
     // Springs pull on the ground, which is no support.
     if source.parts.springs.is_empty() {

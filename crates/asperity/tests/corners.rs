@@ -365,6 +365,59 @@ traction."upper.right" = {{ y = -0.357142857 }}
     }
 }
 
+/// A snap-fit hook is pushed over a ledge and pulled back. Its faces meet by less than 40 degrees, so that they are one smooth piece: behind the ledge one
+/// that slants back was seen through all of the ledge (no equilibrium at 0.69 of the way), and where a corner had some parts of it and the field the
+/// others, dual functions held the hook up in the air.
+#[test]
+fn a_hook_snaps_over_a_ledge_and_back() {
+    let (depth, length, crest, thick) = (1.0, 20.0, 0.6, 1.5);
+    let slopes = [30.0_f64, 20.0].map(|angle| depth / angle.to_radians().tan());
+    let ends = [length - slopes[1] - crest - slopes[0], length - slopes[1] - crest, length - slopes[1], length];
+    let [x0, x1, x2, _] = ends;
+    let runs = [(ends[0], 29), (ends[1], 3), (ends[2], 1), (ends[3], 5)]
+        .map(|(to, cells)| format!("{{ to = {to}, cells = {cells} }}"));
+    let parts = format!(
+        r#"
+mesh.part.arm.rectangle = {{ from = [0.0, 0.0], along_x = [{}], along_y = [{{ to = {thick}, cells = 3 }}], cell = "quad4" }}
+mesh.part.ledge.rectangle = {{ from = [20.2, -3.4], to = [24.2, -0.4], cells = [5, 3], cell = "quad4" }}"#,
+        runs.join(", ")
+    );
+    let rest = r#"
+material.m.elastic = { young = 2000.0, poisson = 0.35 }
+body.arm.material = "m"
+body.ledge.material = "m"
+group.under = { of = "arm.bottom", with = ["arm.right"] }
+group.over = { of = "ledge.top", with = ["ledge.left", "ledge.right"] }
+contact.c = { surface = "under", target = "over", law.coulomb = { friction = 0.2 } }
+[[step]]
+displacement."ledge.bottom" = { x = 0.0, y = 0.0 }
+displacement."arm.left" = { x = 8.0, y = 0.0 }
+[[step]]
+displacement."arm.left" = { x = 0.0, y = 0.0 }
+"#;
+    let model = moved(&parts, rest, "arm", |[x, y]| {
+        let under = if x <= x0 {
+            0.0
+        } else if x <= x1 {
+            -depth * (x - x0) / slopes[0]
+        } else if x <= x2 {
+            -depth
+        } else {
+            -depth * (length - x) / slopes[1]
+        };
+        [x, under + (thick - under) * y / thick]
+    });
+    let keep = run(&model);
+    let force = columns(&model, &keep)["contact.c.force.x"]
+        .iter()
+        .fold([0.0_f64; 2], |[least, most], f| [least.min(*f), most.max(*f)]);
+    // It resists both ways, and comes free.
+    assert!(force[0] < -0.05 && force[1] > 0.05, "{force:?}");
+    assert!(columns(&model, &keep)["contact.c.force.x"].last().unwrap().abs() < 1e-9);
+    let iterations = keep.states.last().unwrap().iterations;
+    assert!(iterations < 400, "{iterations}");
+}
+
 /// A serpentine spring of thin legs is squeezed, all of its sides in one group. A ray inward that grazed another leg took the end of that for the end of its
 /// own: a node saw the far side of its own leg and "came to lie" a thickness deep in that.
 #[test]

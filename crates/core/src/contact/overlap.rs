@@ -45,6 +45,12 @@ impl Overlap {
         [values[entry::SINCE], values[entry::UNTIL]] = FOR_GOOD;
     }
 
+    /// Takes so deep an overlap as none for good, or forgets it again where it is zero.
+    pub fn lay(values: &mut [f64], depth: f64) {
+        let during = if depth > 0.0 { FOR_GOOD } else { [0.0; 2] };
+        [values[entry::OVERLAP], values[entry::SINCE], values[entry::UNTIL]] = [depth, during[0], during[1]];
+    }
+
     /// Whether what stands between a point and its target counts as none for good.
     pub fn fits(values: &[f64]) -> bool {
         values[entry::UNTIL] == f64::INFINITY

@@ -123,7 +123,8 @@ pub static FIGURES: &[Figure] = &[
     largest("friction_deviation", "friction differs from its law by").limited(
         "0.075",
         "Shear force of the slipping points of a contact on the target's normals, less what the law allows there, relative to \
-         the shear force of the contact; where that is nothing, the shear force relative to the normal force.",
+         the shear force of the contact, or to half of what it would bear if all of it slipped; without friction the shear force relative to the \
+         normal force.",
         "a finer surface, the flat side as `surface` with roles = \"given\", or form = \"field\" where it is not: forces between bodies follow \
          the normals of the surface, which are not those of the target at an edge that is tilted",
     ),

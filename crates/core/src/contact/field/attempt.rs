@@ -16,6 +16,7 @@ use super::spot::{GAUSS, IntervalPoint};
 use super::stencil::{COUNT, NodeSums, StencilInPlace};
 use super::support::FieldSearch;
 use super::tip::TipFoot;
+use crate::contact::Overlap;
 use crate::contact::augment;
 use crate::contact::energy::account;
 use crate::contact::increment::{in_contact, refuse_jump};
@@ -260,7 +261,21 @@ impl FieldAttempt<'_> {
             None => [0.0, self.law.recession() * self.worn_beneath(slot)],
         };
         let recession = options.overlap.recession(own, self.history.slot(slot), self.at) - beneath;
-        self.shift(slot)[0] + self.nearer[slot].most + recession
+        self.shift(slot)[0] + self.nearer[slot].most + recession - self.laid(slot)
+    }
+
+    /// How deep a corner lay in what it begins to touch in this increment.
+    fn laid(&self, slot: usize) -> f64 {
+        let begins = self.history.slot(slot)[entry::OVERLAP] == 0.0;
+        self.pointing(slot).filter(|_| begins).map_or(0.0, |pointing| pointing.laid)
+    }
+
+    /// What is kept of an open node. A corner that lets go lies nowhere any more.
+    fn leave(&self, slot: usize, old: &[f64], new: &mut [f64]) {
+        leave(&*self.law, old, new);
+        if self.pointing(slot).is_some() && Overlap::fits(new) && new[entry::OVERLAP] > 0.0 {
+            Overlap::lay(new, 0.0);
+        }
     }
 
     /// How much deeper an open node must lie for the law to answer as for a closed one, where it is held: by its bond, or by the first guess if
@@ -339,7 +354,7 @@ impl FieldAttempt<'_> {
                 let reason = format!("the target came through at {}", contact.name_of(slot));
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
-            leave(&*self.law, old, new);
+            self.leave(slot, old, new);
             local.energies.across = -across(old, stencil.parted());
             self.add_fracture(slot, [old[entry::XI] * old[entry::HALF], old[entry::HALF]], local);
             return Ok(0);
@@ -359,7 +374,7 @@ impl FieldAttempt<'_> {
         let lift = self.lift(slot, &past, [here, slip[0], slip[1]]);
         let seen = here + lift;
         if self.idle[slot] || seen <= law.opens(&past, slip) + contact.least {
-            leave(law, old, new);
+            self.leave(slot, old, new);
             let slid = if old[entry::STATUS] == f64::from(Status::Slip as u8) { slip } else { [0.0; 2] };
             account(terms, (options, self.at), (areas, multiplied), (None, slid), local);
             local.energies.across = -across(old, -here);
@@ -385,6 +400,9 @@ impl FieldAttempt<'_> {
             slip
         };
         write(&response, (slip, law.recession()), old, new);
+        if self.laid(slot) > 0.0 {
+            Overlap::lay(new, self.laid(slot));
+        }
         if let Some(node) = contact.node_of(slot) {
             new[entry::WORN] += (new[entry::RUBBED] - old[entry::RUBBED]) * (sums.area / contact.areas[node]).min(1.0);
         }

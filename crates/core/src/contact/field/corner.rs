@@ -32,8 +32,10 @@ pub struct Pointing {
     pub along: Vec3,
     /// The gap at the accepted state,
     pub gap: f64,
-    /// and the face that it saw there along that direction, by its number, and where.
+    /// the face that it saw there along that direction, by its number, and where,
     pub saw: Option<(usize, ShapeFunctions)>,
+    /// and how deep the field that bore it let it lie in that: it bears where it goes deeper.
+    pub laid: f64,
 }
 
 /// A face that a corner may touch: where, how far away that is, its normal, and the angles between which a flank rises from it.
@@ -44,6 +46,8 @@ struct Touchable {
     gap: f64,
     n: Vec3,
     range: [f64; 2],
+    /// Whether a field that bears lies flat on it there, and the corner does not bear yet.
+    flat: bool,
 }
 
 /// Angles, beyond those by which both sides bend, of the lower flank to what it touches between which a corner takes over from the field: a block that
@@ -118,7 +122,7 @@ impl Configuration<'_> {
     /// How the corners touch what lies no farther than `far` in an accepted configuration, and what they see within `reach`.
     pub(super) fn pointings(&self, history: &History, (far, reach): (f64, f64)) -> Vec<Pointing> {
         let corners = self.contact.corners.iter().enumerate();
-        let ways = corners.flat_map(|(number, corner)| self.pointing(corner, self.contact.bears(number, history), far));
+        let ways = corners.flat_map(|(number, corner)| self.pointing((number, corner), history, far));
         let saw = |(number, on): (usize, Pointing)| {
             let found = self.touched_by(CornerTouch { number, along: on.along }, [-2.0 * reach, 2.0 * reach]);
             Pointing { saw: found.map(|(face, hit)| (face, hit.shape)), ..on }
@@ -126,21 +130,24 @@ impl Configuration<'_> {
         ways.enumerate().map(saw).collect()
     }
 
-    fn pointing(&self, corner: &BodyCorner, bears: bool, far: f64) -> [Pointing; WAYS] {
+    fn pointing(&self, (number, corner): (usize, &BodyCorner), history: &History, far: f64) -> [Pointing; WAYS] {
         let (Some(c), Some(other)) = (self.place_of(corner), self.contact.side(!corner.own)) else {
             return Default::default();
         };
-        let deepest = if bears { DEEPEST } else { SUNK } * corner.size;
+        let bears = self.contact.bears(number, history);
         let (mut before, mut past): (Vec<Touchable>, Vec<Touchable>) = Default::default();
-        self.across(corner, c, far.max(deepest), |f, face, placed| {
+        self.across(corner, c, far.max(DEEPEST * corner.size), |f, face, placed| {
             let n = other.middle_normal(face, placed);
             let Some(hit) = project((face, placed), &FaceRay { x: c, n: -n }, other.plane) else { return };
+            // What lay flat on a face that bears may be as deep in it as the mean of its gaps lets it.
+            let flat = !bears && !corner.own && self.contact.face_bears(f, history);
+            let deepest = if bears || flat { DEEPEST } else { SUNK } * corner.size;
             let held = face.holds(hit.s, BESIDE) && hit.gap <= far && -hit.gap <= deepest;
             let near = hit.gap.abs() <= PAST * corner.size;
             let beyond = near && !face.holds(hit.s, 0.0) && face.holds(hit.s, FARTHEST);
             let range = RISES.map(|angle| angle + corner.bend + other.bends[f]);
             let s = face.nearest(hit.s);
-            let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range };
+            let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range, flat };
             before.extend(held.then_some(touchable));
             let end = face.shape(s).value(placed.nodes());
             past.extend(beyond.then_some(Touchable { gap: (c - end).norm(), ..touchable }));
@@ -150,6 +157,7 @@ impl Configuration<'_> {
             along: self.normal_in_valley(!corner.own, on.face, on.s) * -share,
             gap: on.gap,
             saw: None,
+            laid: if on.flat { (-on.gap).max(0.0) } else { 0.0 },
         };
         let mut ways = [Pointing::default(); WAYS];
         let first = nearest(&before);
@@ -314,9 +322,19 @@ impl FieldContact {
     pub(super) fn bears(&self, number: usize, history: &History) -> bool {
         let (corner, first) = (&self.corners[number], self.nodal_slots() + WAYS * number);
         let flanks = corner.flanks.iter().filter(|_| corner.own);
-        let nodes = flanks.filter_map(|flank| Some(self.parts.surface.field[flank.face][flank.at?]));
-        let nodal = nodes.flat_map(|node| (0..self.pieces).map(move |piece| self.slot(node, piece)));
-        (first..first + WAYS).chain(nodal).any(|slot| history.slot(slot)[entry::STATUS] > 0.0)
+        let mut nodes = flanks.filter_map(|flank| Some(self.parts.surface.field[flank.face][flank.at?]));
+        let own = (first..first + WAYS).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
+        own || nodes.any(|node| self.node_bears(node, history))
+    }
+
+    fn node_bears(&self, node: usize, history: &History) -> bool {
+        (0..self.pieces).any(|piece| history.slot(self.slot(node, piece))[entry::STATUS] > 0.0)
+    }
+
+    /// Whether a node of a face of the surface bears.
+    fn face_bears(&self, f: usize, history: &History) -> bool {
+        let surface = &self.parts.surface;
+        surface.field[f][..surface.faces[f].corners()].iter().any(|&node| self.node_bears(node, history))
     }
 
     /// How the corners touched in the increment that led to an accepted history.

@@ -12,6 +12,7 @@ use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
 use crate::contact::Overlap;
 use crate::contact::record::entry;
+use crate::mesh::CREASE;
 use crate::system::History;
 use crate::tensor::BoundingBox;
 use std::cell::OnceCell;
@@ -40,11 +41,10 @@ impl FieldContact {
         let boundary = OnceCell::new();
         let whole = || boundary.get_or_init(|| self.boundary.in_place(self.site(), before.1));
         for (number, &most) in depths.iter().enumerate() {
-            for mut seen in now.patches(number, reach, &mut near) {
-                seen.patch.left = before.0.left(&seen.patch);
-                if history.is_some_and(|history| self.is_beside(&seen, (before.0, history))) {
-                    continue;
-                }
+            let mut parts = now.patches(number, reach, &mut near);
+            parts.retain(|seen| !history.is_some_and(|history| self.is_beside(seen, (before.0, history))));
+            self.leave_to_corners(&mut parts, before.0);
+            for seen in parts {
                 let depth = self.depth_at(&seen, most, (before.0, &whole));
                 let piece = self.piece_of(seen.patch.target);
                 let bears = |corner: &usize| seen.patch.left[*corner] > 0.0;
@@ -110,6 +110,21 @@ impl FieldContact {
             found.supports[slot].stretch = if areas[1] > 0.0 { areas[0] / areas[1] } else { 1.0 };
         }
         found
+    }
+
+    /// What the corners of a face leave to those of the body, part by part. Dual functions are negative somewhere: where a corner of an edge of the plane
+    /// has only some of the parts that see a smooth piece these have none.
+    fn leave_to_corners(&self, parts: &mut [SeenPart], before: &Configuration) {
+        for seen in &mut *parts {
+            seen.patch.left = before.left(&seen.patch);
+        }
+        let all: Vec<_> = parts.iter().map(|seen| (self.piece_of(seen.patch.target), seen.patch.left)).collect();
+        for seen in parts {
+            let mut same = all.iter().filter(|(piece, _)| *piece == self.piece_of(seen.patch.target));
+            if self.parts.surface.plane && same.any(|(_, left)| *left != seen.patch.left) {
+                seen.patch.dual = 0.0;
+            }
+        }
     }
 
     /// Nodes on which a patch depends.
@@ -202,8 +217,12 @@ impl FieldContact {
         }
         let mut near = Vec::new();
         target.near(&BoundingBox::of([ray.x]), lay, &mut near);
-        near.iter().filter(|&&face| self.piece_of(face) != piece && self.may_touch(patch.face, face)).any(|&face| {
-            let n = -faces.surface.middle_normal(&faces.surface.faces[face], target.placed(face));
+        let normal = |face: usize| faces.surface.middle_normal(&faces.surface.faces[face], target.placed(face));
+        let seen = normal(patch.target);
+        // A chamfer may turn by less than a crease at each of its ends.
+        let other = |face: usize| self.piece_of(face) != piece || normal(face).dot(seen) < CREASE.cos();
+        near.iter().filter(|&&face| other(face) && self.may_touch(patch.face, face)).any(|&face| {
+            let n = -normal(face);
             let out = target.project(face, &FaceRay { x: ray.x, n });
             out.is_some_and(|hit| target.holds(face, hit.s, PAST) && hit.gap.abs() < lay)
         })

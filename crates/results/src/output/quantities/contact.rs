@@ -125,13 +125,14 @@ fn couple(first: &Seen, second: Option<&Seen>) -> (f64, f64) {
 }
 
 /// By how much the shear force of the points that slip differs from what their law allows, both resolved on the normals of
-/// the target; and the shear force of all points. Where the law allows none, the shear force itself and the normal one. None
-/// where nothing slips.
+/// the target; and the shear force of all points, or half of what they would bear if all slipped where that is more: a wheel that rolls freely
+/// has none. Where the law allows none, the shear force itself and the normal one. None where nothing slips.
 ///
 /// The stress at a point follows the normal of its own edge or face. Where that is not the one of what it touches, the
 /// ratio of shear to pressure there is not the one of the law.
 fn friction(seen: &Seen, plane: bool) -> Option<(f64, f64)> {
     let (mut excess, mut carried, mut thrust, mut shear, mut slips) = (0.0, 0.0, 0.0, Vec3::zero(), false);
+    let mut ratio = 0.0_f64;
     for record in seen.closed().filter(|record| record.pressure > 0.0) {
         let (force, normal) = (record.force(), record.facing);
         let pressing = force.dot(normal);
@@ -140,11 +141,13 @@ fn friction(seen: &Seen, plane: bool) -> Option<(f64, f64)> {
         if record.status == PointStatus::Slip {
             let tangential = force - normal * pressing;
             (excess, slips) = (excess + tangential.norm() - allowed, true);
+            ratio = ratio.max(record.shear.abs() / record.pressure);
             // Along a curved target of the plane its tangents are one direction.
             shear += if plane { Vec3::new(force.dot(normal.left()), 0.0, 0.0) } else { tangential };
         }
     }
-    slips.then(|| if carried > 0.0 { (excess.abs(), carried) } else { (shear.norm(), thrust) })
+    let least = 0.5 * ratio * thrust;
+    slips.then(|| if carried > 0.0 { (excess.abs(), carried.max(least)) } else { (shear.norm(), thrust) })
 }
 
 fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {

@@ -317,12 +317,10 @@ impl<'a> Newton<'a> {
             self.iterate(&mut at, Goal::Equilibrium, &mut sequence, (&mut *record, &mut *observer))?
         {
             let u = &at.0;
-            if !still && self.path.is_none() {
-                if let Some(begin) = self.at_rest(u, record, norms.reference[0])? {
-                    at = self.begin(begin)?;
-                    still = true;
-                    continue;
-                }
+            let may_rest = !still && self.path.is_none();
+            if may_rest && let Some(begin) = self.at_rest(u, record, norms.reference[0])? {
+                (at, still) = (self.begin(begin)?, true);
+                continue;
             }
             self.is_stable(u, norms.reference[0])?;
             if !self.augment(u)? {

@@ -219,7 +219,8 @@ impl<'a> Run<'a> {
                             record.turn = self.look_again(turn, (&record, &converged.u), before.clone());
                         }
                         let crosses = |turn: &Turn| turn.crosses(&self.state, (&converged.u, dt), self.problem.size);
-                        let may_return = may_return && (!bears || keeps_contact(&record));
+                        let goes_on = self.state.last_dt > 0.0 && keeps_contact(&record);
+                        let may_return = may_return && (!bears || goes_on);
                         if may_return && record.turn.as_ref().is_some_and(crosses) {
                             (self.state.signs, self.state.softest) = before;
                             self.stability.forget_last();

@@ -462,7 +462,7 @@ force.mid = { x = 0.3, amplitude = [[0.0, 1.0], [1.0, 1.0]] }
     let turns: Vec<_> = keep.attempts.iter().filter_map(|attempt| attempt.turn.as_ref()).collect();
     let last = turns.last().unwrap();
     assert!(turns.len() > 1 && last.negative[1] > last.negative[0], "{turns:?}");
-    assert!(support::certificate(&model, &keep).figure("unstable").unwrap() > 1.0);
+    assert!(support::certificate(&model, &keep).figure("unstable").unwrap() >= 2.0);
 }
 
 /// Rubber under a pressure all round of 50 times its shear modulus is stable. The matrix of a first iteration turns with the stress before the

@@ -248,8 +248,10 @@ impl Stability {
         if let Some(last) = changed.filter(|last| !counted && !symmetric && last.negative > 0) {
             let all = self.negative_in_symmetric_part(look).filter(|all| *all > last.negative);
             negative = all.map_or(negative, |all| all - (all + negative) % 2);
-            state.signs = Some(Signs { negative, ..now });
+        } else if let Some(last) = same.filter(|_| !symmetric && changed.is_none()) {
+            negative = last.negative;
         }
+        state.signs = Some(Signs { negative, ..now });
         // Something of every mode.
         let any = |k: usize| ((k + 1) as f64 * 1.618_033_988_749_895).fract() - 0.5;
         let begin = || (0..constraints.free_count()).map(any).collect();

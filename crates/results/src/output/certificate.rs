@@ -58,6 +58,8 @@ pub struct Certificate(BTreeMap<&'static str, BTreeMap<String, Extreme>>);
 #[derive(Debug, Clone, PartialEq)]
 struct Extreme {
     value: f64,
+    /// The last reading.
+    last: f64,
     scale: Option<f64>,
     position: Option<Vec3>,
     step: usize,
@@ -98,7 +100,7 @@ impl Fold {
     fn is_worse(self, new: f64, old: f64) -> bool {
         match self {
             _ if old.is_nan() => false,
-            Self::Largest => new.is_nan() || new > old,
+            Self::Largest | Self::Lasting => new.is_nan() || new > old,
             Self::Least => new.is_nan() || new < old,
             Self::Sum => new != 0.0,
         }
@@ -126,8 +128,11 @@ impl Certificate {
     pub(super) fn take(&mut self, reading: &Reading, (step, increment, time): (usize, usize, f64)) {
         let Some(figure) = Figure::named(reading.figure) else { return };
         let &Reading { value, scale, position, .. } = reading;
-        let new = Extreme { value, scale, position, step, increment, time };
         let of = self.0.entry(figure.name).or_default();
+        let before = of.get(&reading.of).map_or(0.0, |worst| worst.last);
+        let (value, last) =
+            (if figure.fold == Fold::Lasting && !value.is_nan() { value.min(before) } else { value }, value);
+        let new = Extreme { value, last, scale, position, step, increment, time };
         let Some(worst) = of.get_mut(&reading.of) else {
             of.insert(reading.of.clone(), new);
             return;
@@ -140,7 +145,7 @@ impl Certificate {
         if figure.fold == Fold::Sum {
             worst.value = sum;
         }
-        worst.scale = scale;
+        (worst.scale, worst.last) = (scale, last);
     }
 
     /// A figure at its worst of all things; what is counted is the sum over them.
@@ -277,20 +282,38 @@ mod tests {
         for figure in limited() {
             let default: f64 = figure.limit.unwrap().default.parse().unwrap();
             let doubts = |value: f64, limits: &Limits| {
-                certificate(&[&[Reading::new(figure.name, "contact 'c'", value)], &[]]).doubts(limits)
+                let reading = [Reading::new(figure.name, "contact 'c'", value)];
+                certificate(&[&reading, &reading]).doubts(limits)
             };
             assert!(doubts(default, &Limits::default()).is_empty(), "{}", figure.name);
             let mut wider = Limits::default();
-            wider.set(figure.name, 3.0 * default);
-            assert!(doubts(2.0 * default, &wider).is_empty());
-            for bad in [2.0 * default, f64::NAN] {
+            let bad = 2.0 * default.max(0.5);
+            wider.set(figure.name, 3.0 * bad);
+            assert!(doubts(bad, &wider).is_empty());
+            for bad in [bad, f64::NAN] {
                 let found = doubts(bad, &Limits::default());
                 let [doubt] = &found[..] else { panic!("one doubt of {}", figure.name) };
                 let told = doubt.to_string();
-                let parts = [figure.name, figure.limit.unwrap().remedy, "contact 'c'", "increment 1 (time 0.5"];
+                let when = if figure.fold == Fold::Lasting && !bad.is_nan() {
+                    "increment 2 ("
+                } else {
+                    "increment 1 (time 0.5"
+                };
+                let parts = [figure.name, figure.limit.unwrap().remedy, "contact 'c'", when];
                 assert!(parts.iter().all(|part| told.contains(part)), "{told}");
             }
         }
+    }
+
+    #[test]
+    fn what_does_not_last_is_not_counted() {
+        let unstable = |n| Reading::new("unstable", "", n);
+        let of = |counts: &[f64]| {
+            let frames: Vec<_> = counts.iter().map(|n| [unstable(*n)]).collect();
+            let frames: Vec<&[Reading]> = frames.iter().map(|frame| &frame[..]).collect();
+            certificate(&frames).figure("unstable")
+        };
+        assert_eq!([of(&[1.0, 0.0, 2.0, 0.0]), of(&[0.0, 1.0, 3.0, 2.0])], [Some(0.0), Some(2.0)]);
     }
 
     #[test]

@@ -24,6 +24,8 @@ pub enum Fold {
     Least,
     /// They are counted together.
     Sum,
+    /// The largest that two increments in a row reach is the worst.
+    Lasting,
 }
 
 /// The limit of a figure.
@@ -153,11 +155,11 @@ pub static FIGURES: &[Figure] = &[
     ),
     largest("unstable", "negative eigenvalues of the stiffness").limited(
         "0",
-        "Negative eigenvalues of the stiffness in equilibrium (of one that is not symmetric one for a negative determinant): any small \
-         disturbance leaves such a state. Not asked where a path is followed by arc length.",
+        "Negative eigenvalues of the stiffness in equilibrium (of one that is not symmetric one for a negative determinant) in two increments \
+         in a row: any small disturbance leaves such a state. Not asked where a path is followed by arc length.",
         "a small load or a shape along the mode (modes.pvd), so that it leaves to the side to which it is bent, with smaller increments; or control = \
          \"arc-length\"",
-    ),
+    ).folded(Fold::Lasting),
     largest("hourglass", "unresisted part of motion"),
     largest("small_strain", "gradient in small strain"),
 ];

@@ -156,7 +156,7 @@ pub static FIGURES: &[Figure] = &[
     largest("unstable", "negative eigenvalues of the stiffness").limited(
         "0",
         "Negative eigenvalues of the stiffness in equilibrium (of one that is not symmetric one for a negative determinant) in two increments \
-         in a row: any small disturbance leaves such a state. Not asked where a path is followed by arc length.",
+         in a row: any small disturbance leaves such a state. Not asked where a path is followed by arc length, nor of models with contact.",
         "a small load or a shape along the mode (modes.pvd), so that it leaves to the side to which it is bent, with smaller increments; or control = \
          \"arc-length\"",
     ).folded(Fold::Lasting),

@@ -23,7 +23,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let part = |left: f64| if loaded { left / in_play } else { 0.0 };
     let scale = if loaded { in_play } else { 0.0 };
     frame.certify(Reading::new("leap", "", state.leap));
-    if let Some(signs) = state.signs.filter(|_| !source.parts.follows) {
+    // What rolls or slides on what it touches has motions that are hardly stiff, and their sign is that of rounding.
+    if let Some(signs) = state.signs.filter(|_| !source.parts.follows && source.parts.contacts.is_empty()) {
         frame.certify(Reading::new("unstable", "", signs.negative as f64));
     }
     frame.certify(Reading::new("equilibrium_error", "", left).over(scale));

@@ -61,11 +61,12 @@ impl Newton<'_> {
         Err(unheld(self.regularised.join("; ")).into())
     }
 
-    /// Whether the first guess carries something on that nothing holds any more, a body that has lost its contact and would drift on as it
-    /// last moved: the guess left no force unbalanced, so that no matrix was solved, or one that was solved from it was singular. A contact
-    /// that lets go in the iterations is judged likewise, since the matrix that was solved last may still have held it.
+    /// The iterate to begin from anew where the first guess carries something on that nothing holds any more, a body that has lost its contact and
+    /// would drift on as it last moved; none where it does not. What is free is where it was, all else where it came to, so that nothing that
+    /// goes away takes it along.
     ///
-    /// The iterate to begin from then: what is free is where it was, all else where it came to, so that nothing that goes away takes it along.
+    /// It does so where the guess left no force unbalanced, so that no matrix was solved, or where one that was solved from it was singular. A
+    /// contact that lets go in the iterations is judged likewise, since the matrix that was solved last may still have held it.
     ///
     /// # Errors
     /// What is free in words, unless it is to be held.
@@ -76,8 +77,7 @@ impl Newton<'_> {
         reference: f64,
     ) -> Result<Option<Vec<f64>>, SolveError> {
         let guessed = record.iterations.len() == 1;
-        let lets_go = self.lets_go(record);
-        if !guessed && !lets_go && !self.was_singular || !self.opened().any(|opened| opened) {
+        if !guessed && !self.was_singular && !self.lets_go(record) || !self.opened().any(|opened| opened) {
             return Ok(None);
         }
         self.complete(u, None)?;

@@ -184,7 +184,7 @@ pub struct Newton<'a> {
     pub(super) free_is_close: bool,
     /// Motions that the last matrix was regularised against, in words.
     pub(super) regularised: Vec<String>,
-    /// Whether any matrix was.
+    /// Whether any matrix of the attempt was singular.
     pub(super) was_singular: bool,
     /// Iterations in a row over which no contact changed.
     pub(super) steady: i32,

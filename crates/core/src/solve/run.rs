@@ -185,8 +185,7 @@ impl<'a> Run<'a> {
                         wanted = 0.5 * dt;
                         continue;
                     }
-                    let follows = !relaxing && step.arc_length.is_none();
-                    let may_return = returns < RETURNS && follows && step.may_halve(dt);
+                    let may_return = returns < RETURNS && !relaxing && step.arc_length.is_none() && step.may_halve(dt);
                     let bears = self.contact_bears();
                     if may_return && !bears && self.goes_back(step, &converged, dt) {
                         record.failure =

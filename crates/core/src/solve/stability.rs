@@ -27,7 +27,8 @@ pub struct Turn {
     pub times: [f64; 2],
     /// Negative eigenvalues at them,
     pub negative: [usize; 2],
-    /// if they were counted; else one for a negative determinant, as that of an unsymmetric tangent.
+    /// if they were counted; else those of an unsymmetric tangent, of which the first makes the determinant negative and its symmetric part
+    /// tells of more.
     pub counted: bool,
     /// When the eigenvalue nearest to zero passes it, linear between the two, if it was followed.
     pub critical: Option<f64>,
@@ -230,7 +231,7 @@ impl Stability {
         negative = if symmetric { negative + more } else { (negative + more) % 2 };
         let constraints = look.constraints();
         let now = Signs { time: record.time, step: record.step, symmetric, negative };
-        let last = state.signs.replace(now);
+        let last = state.signs.take();
         // An undeformed model is taken for stable, and its determinant for positive; numbers can be compared whatever is free,
         // determinants cannot.
         let begun = Signs { time: record.time - record.dt, step: record.step, symmetric: true, negative: 0 };
@@ -245,7 +246,7 @@ impl Stability {
         let changed =
             same.filter(|last| if counted { last.negative != negative } else { last.negative % 2 != negative % 2 });
         // The second of them makes the determinant positive again.
-        if let Some(last) = changed.filter(|last| !counted && !symmetric && last.negative > 0) {
+        if let Some(last) = changed.filter(|last| !symmetric && last.negative > 0) {
             let all = self.negative_in_symmetric_part(look).filter(|all| *all > last.negative);
             negative = all.map_or(negative, |all| all - (all + negative) % 2);
         } else if let Some(last) = same.filter(|_| !symmetric && changed.is_none()) {

@@ -118,7 +118,8 @@ pub struct Signs {
     pub step: usize,
     /// Whether it was symmetric.
     pub symmetric: bool,
-    /// Number of negative eigenvalues if it was; else one for a negative determinant, zero for a positive one.
+    /// Number of negative eigenvalues if it was; else zero or one by the sign of the determinant, and where that changed once more what the
+    /// symmetric part has.
     pub negative: usize,
 }
 

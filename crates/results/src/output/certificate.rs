@@ -130,8 +130,8 @@ impl Certificate {
         let &Reading { value, scale, position, .. } = reading;
         let of = self.0.entry(figure.name).or_default();
         let before = of.get(&reading.of).map_or(0.0, |worst| worst.last);
-        let (value, last) =
-            (if figure.fold == Fold::Lasting && !value.is_nan() { value.min(before) } else { value }, value);
+        let (last, lasts) = (value, figure.fold == Fold::Lasting && !value.is_nan());
+        let value = if lasts { value.min(before) } else { value };
         let new = Extreme { value, last, scale, position, step, increment, time };
         let Some(worst) = of.get_mut(&reading.of) else {
             of.insert(reading.of.clone(), new);

@@ -400,8 +400,9 @@ impl FieldAttempt<'_> {
             slip
         };
         write(&response, (slip, law.recession()), old, new);
-        if self.laid(slot) > 0.0 {
-            Overlap::lay(new, self.laid(slot));
+        let laid = self.laid(slot);
+        if laid > 0.0 {
+            Overlap::lay(new, laid);
         }
         if let Some(node) = contact.node_of(slot) {
             new[entry::WORN] += (new[entry::RUBBED] - old[entry::RUBBED]) * (sums.area / contact.areas[node]).min(1.0);

@@ -118,11 +118,14 @@ impl FieldContact {
         for seen in &mut *parts {
             seen.patch.left = before.left(&seen.patch);
         }
-        let all: Vec<_> = parts.iter().map(|seen| (self.piece_of(seen.patch.target), seen.patch.left)).collect();
-        for seen in parts {
-            let mut same = all.iter().filter(|(piece, _)| *piece == self.piece_of(seen.patch.target));
-            if self.parts.surface.plane && same.any(|(_, left)| *left != seen.patch.left) {
-                seen.patch.dual = 0.0;
+        if !self.parts.surface.plane {
+            return;
+        }
+        for k in 0..parts.len() {
+            let Patch { target, left, .. } = parts[k].patch;
+            let mut same = parts.iter().filter(|seen| self.piece_of(seen.patch.target) == self.piece_of(target));
+            if same.any(|seen| seen.patch.left != left) {
+                parts[k].patch.dual = 0.0;
             }
         }
     }

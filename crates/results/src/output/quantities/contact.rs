@@ -132,21 +132,22 @@ fn couple(first: &Seen, second: Option<&Seen>) -> (f64, f64) {
 /// ratio of shear to pressure there is not the one of the law.
 fn friction(seen: &Seen, plane: bool) -> Option<(f64, f64)> {
     let (mut excess, mut carried, mut thrust, mut shear, mut slips) = (0.0, 0.0, 0.0, Vec3::zero(), false);
-    let mut ratio = 0.0_f64;
+    let mut most = 0.0_f64;
     for record in seen.closed().filter(|record| record.pressure > 0.0) {
         let (force, normal) = (record.force(), record.facing);
         let pressing = force.dot(normal);
-        let allowed = record.shear.abs() / record.pressure * pressing;
+        let ratio = record.shear.abs() / record.pressure;
+        let allowed = ratio * pressing;
         (carried, thrust) = (carried + allowed, thrust + pressing);
         if record.status == PointStatus::Slip {
             let tangential = force - normal * pressing;
             (excess, slips) = (excess + tangential.norm() - allowed, true);
-            ratio = ratio.max(record.shear.abs() / record.pressure);
+            most = most.max(ratio);
             // Along a curved target of the plane its tangents are one direction.
             shear += if plane { Vec3::new(force.dot(normal.left()), 0.0, 0.0) } else { tangential };
         }
     }
-    let least = 0.5 * ratio * thrust;
+    let least = 0.5 * most * thrust;
     slips.then(|| if carried > 0.0 { (excess.abs(), carried.max(least)) } else { (shear.norm(), thrust) })
 }
 

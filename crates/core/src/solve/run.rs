@@ -217,9 +217,11 @@ impl<'a> Run<'a> {
                         if let Some(turn) = record.turn.take_if(|_| step.arc_length.is_none()) {
                             record.turn = self.look_again(turn, (&record, &converged.u), before.clone());
                         }
-                        let crosses = |turn: &Turn| turn.crosses(&self.state, (&converged.u, dt), self.problem.size);
                         let goes_on = self.state.last_dt > 0.0 && keeps_contact(&record);
-                        let may_return = may_return && (!bears || goes_on);
+                        let crosses = |turn: &Turn| {
+                            let path = !bears || goes_on && turn.deforms(self.problem);
+                            path && turn.crosses(&self.state, (&converged.u, dt), self.problem.size)
+                        };
                         if may_return && record.turn.as_ref().is_some_and(crosses) {
                             (self.state.signs, self.state.softest) = before;
                             self.stability.forget_last();

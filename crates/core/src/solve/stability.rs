@@ -9,7 +9,7 @@
 //! not the one that the last pivots said, this matrix is factorised and counted. Increments are passed over in which the quotient,
 //! carried on in time, keeps more than half of itself.
 
-use super::constants::stability::{BACKWARDS, BEGUN, CHANGED, FOLLOWED, KEPT, PASSED, SAME, SETTLED, TOWARDS};
+use super::constants::stability::{BACKWARDS, BEGUN, CHANGED, DEFORMS, FOLLOWED, KEPT, PASSED, SAME, SETTLED, TOWARDS};
 use super::linear::LinearSystem;
 use super::newton::Memory;
 use super::observer::AttemptRecord;
@@ -71,6 +71,13 @@ impl Turn {
         let carried = dot(&state.last_change, &self.mode) * (dt / state.last_dt);
         change * carried < 0.0
             && change.abs() > (BACKWARDS * carried.abs()).max(TOWARDS * size * dot(&self.mode, &self.mode))
+    }
+
+    /// Whether its mode deforms bodies: one that carries them along as they are is held by contact alone, which may snap to and fro.
+    pub(super) fn deforms(&self, problem: &Problem) -> bool {
+        let squares = problem.wholes.iter().map(|whole| whole.squares(&problem.dofs, &self.mode));
+        let [all, left] = squares.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+        left > DEFORMS * DEFORMS * all
     }
 }
 

@@ -48,6 +48,19 @@ impl Whole {
         &self.nodes
     }
 
+    /// The sum of the squares of a motion over its nodes, and of what is left of them without its mean, by which the whole goes as one.
+    pub fn squares(&self, dofs: &Dofs, motion: &[f64]) -> [f64; 2] {
+        let first = if self.space == Space::Axisymmetric { 1 } else { 0 };
+        let count = self.nodes.len() as f64;
+        let squares = (0..dofs.per_node()).map(|axis| {
+            let along = || self.nodes.iter().map(|(node, _)| motion[dofs.node(*node) + axis]);
+            let all = along().map(|x| x * x).sum::<f64>();
+            let mean = if axis < first { 0.0 } else { along().sum::<f64>() / count };
+            [all, all - count * mean * mean]
+        });
+        squares.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]])
+    }
+
     /// Its rigid motions in the undeformed mesh as motions of all unknowns: translations, then rotations about the mean of
     /// its nodes, of largest entry one.
     pub fn rigid_motions(&self, dofs: &Dofs) -> Vec<Vec<f64>> {

@@ -326,9 +326,15 @@ fn a_pair_that_turns_in_one_increment() {
 #[test]
 fn facets_that_bear_the_pressure() {
     Run::of(RINGS, &[]).doubts(&["facet_ratio"], "contact 'seat'");
-    // Those of a ring of first degree stand eight times as deep in one of second degree as the two rings overlap.
-    let fit = press_fit(["[4, 9], cell = \"quad8\"", "[1, 7], cell = \"quad4\""], [10.0, 21.0]);
-    Run::of(&fit, &[]).doubts(&["facet_ratio"], "contact 'fit'");
+    // Of a field they stand for the circles.
+    for cells in [
+        ["[4, 9], cell = \"quad8\"", "[4, 7], cell = \"quad4\""],
+        ["[4, 16], cell = \"quad4\"", "[4, 23], cell = \"quad4\""],
+    ] {
+        let run = Run::of(&press_fit(cells, [12.0, 35.0]), &[]);
+        assert_eq!(run.code(), 0, "{}", run.notes());
+        assert!(!run.notes().contains("facet"), "{}", run.notes());
+    }
 }
 
 /// A shaft of radius 20.01 in a hub of 20, with their cells and their other radii.
@@ -348,8 +354,6 @@ fn press_fit([shaft, hub]: [&str; 2], [inner, outer]: [f64; 2]) -> String {
     )
 }
 
-/// Between thin rings of second degree that do not match the pressure goes up and down by half, and its largest is half as much too high;
-/// between rings that match, and of twice as many cells, it does not.
 /// A ball whose facets are long beside the contact, and short in it: the force is right to a thousandth.
 #[test]
 fn facets_outside_a_contact_are_no_fit() {
@@ -381,6 +385,8 @@ displacement."ball.inner" = { x = 0.0, y = -0.02 }
     assert!(!run.notes().contains("facets"), "{}", run.notes());
 }
 
+/// Between thin rings of second degree that do not match the pressure goes up and down by half, and its largest is half as much too high;
+/// between rings that match, and of twice as many cells, it does not.
 #[test]
 fn pressures_that_a_mesh_does_not_resolve_are_told() {
     let told = |[shaft, hub]: [usize; 2]| {
@@ -509,27 +515,6 @@ fn contacts_that_hardly_close_are_noted() {
 }
 
 /// A disc of a few flat facets bears on one of them, late, and on many of a fine one; of cells of second degree there are none.
-#[test]
-fn a_disc_that_bears_on_few_facets_is_told() {
-    let disc = |cell: &str, cells: usize| {
-        format!(
-            "version = 1
-            space = \"plane-strain\"
-            mesh.part.disc.annulus = {{ from = [2.0, -90.0], to = [5.0, 0.0], cells = [4, {cells}], cell = \"{cell}\" }}
-            material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
-            body.disc.material = \"rubber\"
-            tool.floor.profile = [{{ line = [[20.0, -5.0], [-20.0, -5.0]] }}]
-            contact.sole = {{ surface = \"disc.outer\", target = \"floor\", law.frictionless = {{}} }}
-            [[step]]
-            displacement.\"disc.start\" = {{ x = 0.0 }}
-            displacement.\"disc.end\" = {{ y = -0.05 }}"
-        )
-    };
-    let told = |cell: &str, cells: usize| Run::of(&disc(cell, cells), &[]).notes().contains("one or two facets");
-    assert!(told("quad4", 9));
-    assert!(!told("quad4", 90) && !told("quad8", 9));
-}
-
 /// A flat cylinder narrower than a cell presses the whole cell, and that is told; on cells of half its radius it is not.
 #[test]
 fn a_tool_narrower_than_a_face_is_told() {

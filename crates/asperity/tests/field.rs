@@ -347,7 +347,7 @@ motion.up.y = -0.9
     }
 }
 
-/// A thin ring between flat plates touches them by the corners of its facets. Of means over its edges they would go in by a part of what
+/// A thin ring between flat plates touches them where its circle does. Of means over its edges as they are it would go in by a part of what
 /// the rest stands off, 4 to 36 % of the force; 320 edges give 1.45.
 #[test]
 fn a_ring_of_facets_is_crushed_between_flat_plates() {
@@ -370,7 +370,8 @@ motion.up.y = -0.2
         );
         let model = model(&deck, &[]);
         let force = last(&columns(&model, &run(&model)), "contact.a.force.y");
-        assert!((force / 1.452 - 1.0).abs() < 0.012, "{around}: {force}");
+        // As it flattens its chords stand off less than they did before.
+        assert!((force / 1.452 - 1.0).abs() < 0.018, "{around}: {force}");
     }
 }
 

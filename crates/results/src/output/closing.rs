@@ -1,7 +1,6 @@
 //! What is said of a run at its end besides its figures: what its certificate means in words, what it cost, which promises it
 //! bends.
 
-use super::Reading;
 use super::account::Account;
 use super::average::extrapolation;
 use super::certificate::{Certificate, Limits};
@@ -17,12 +16,7 @@ use asperity_core::system::{State, Term};
 pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     let Account { certificate, limits, summary, .. } = account;
     cost(summary, run, seconds);
-    for (reading, note) in facets(model, &run.state) {
-        certificate.take(&reading, (run.state.step, run.state.increment, run.state.time));
-        summary.notes.push(note);
-    }
     summary.notes.extend(rough(model, &run.state));
-    summary.notes.extend(few_facets(model, &run.state));
     summary.notes.extend(memory_of_tips(model, &run.state));
     let bodies = Parts::of(model).bodies;
     summary.notes.extend(bodies.iter().flat_map(|(term, body)| locking(body, &run.state, *term)));
@@ -128,15 +122,6 @@ fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
         _ => None,
     };
     certificate.each("closed_points").filter_map(said).collect()
-}
-
-/// What contacts say of the facets that their overlap is between, and how much that is.
-fn facets(model: &Model, state: &State) -> Vec<(Reading, String)> {
-    let told = |(term, name, contact): &(usize, String, Touching)| {
-        let (ratio, note) = contact.facets(&state.u, &state.histories[*term])?;
-        Some((Reading::new("facet_ratio", format!("contact '{name}'"), ratio), note))
-    };
-    Parts::of(model).contacts.iter().filter_map(told).collect()
 }
 
 /// Changes of stability that are told one by one.
@@ -277,19 +262,6 @@ fn memory_of_tips(model: &Model, state: &State) -> Vec<String> {
                  rounding of the tool bears it, which takes that along over the surface; faces smaller than the contact is wide do not"
             )
         })
-    };
-    Parts::of(model).contacts.iter().filter_map(told).collect()
-}
-
-/// Which contacts rest on one or two facets of what is meant to be round.
-fn few_facets(model: &Model, state: &State) -> Vec<String> {
-    let told = |(term, name, contact): &(usize, String, Touching)| {
-        let rise = contact.few_facets(&state.histories[*term])?;
-        Some(format!(
-            "contact '{name}': at the end it bears on one or two facets of a curved surface, which lie {rise:.2e} inside that in the mean: \
-             so much later it is touched, and its force may be less than half of that of the curved surface; facets small enough that \
-             five of them bear, or cells of second degree along the surface"
-        ))
     };
     Parts::of(model).contacts.iter().filter_map(told).collect()
 }

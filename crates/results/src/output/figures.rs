@@ -134,10 +134,9 @@ pub static FIGURES: &[Figure] = &[
     largest("least_dissipation", "least dissipation").folded(Fold::Least),
     largest("facet_ratio", "pressure that facets stand for").limited(
         "1.0",
-        "Pressure that the facets of curved faces of bodies stand for, relative to that of the curved surfaces that they are meant for; of \
-         points, to the pressure that is carried.",
+        "Pressure that the corners of curved faces of bodies are worth at points (`form = \"paper\"`), relative to the pressure that is carried.",
         "a finer mesh, edges of second degree, matching nodes, or a softer `penalty`: above one the pressure of points may be \
-         anything",
+         anything; or form = \"field\", which takes facets for the surface that they stand for",
     ),
     largest("coarseness", "faces over what presses them").limited(
         "3.0",

@@ -103,10 +103,10 @@ impl FieldContact {
     /// functions is a sixth of what it is at the far end of the face, with dual ones as much less than zero. The square of a face itself, as
     /// of a plate which lifts off a table from where it is clamped, is therefore none of what the dual part has for the gap, but where it
     /// lies in the target (a Petrov-Galerkin method: forces are those of dual functions all the same, and constant pressures exact). Where
-    /// the target or a face of second degree is round before any motion there is half of each.
+    /// the target or what the face stands for is round before any motion there is half of each.
     pub(super) fn most_dual(&self, patch: &Patch) -> f64 {
         let (surface, face) = (&self.parts.surface, patch.face);
-        let round = surface.curved[face] && surface.faces[face].kind.degree > 1;
+        let round = surface.curved[face] && (surface.faces[face].kind.degree > 1 || surface.caps[face].is_some());
         if self.is_straight(patch.target) && !round { 1.0 } else { BLENDED }
     }
 }

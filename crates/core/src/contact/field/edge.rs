@@ -196,7 +196,7 @@ impl NodesInPlace<'_> {
             functions: ShapeFunctions::constant(1.0),
             dual: ShapeFunctions::constant(0.0),
             shape,
-            gap: to.dot(n),
+            gap: to.dot(n) - self.contact.parts.surface.rise(patch.face, xi).0,
             bulge: 0.0,
             n,
             v: touched.map_or(Vec3::zero(), |touched| touched.tip - touched.now),
@@ -219,6 +219,7 @@ impl NodesInPlace<'_> {
             return;
         };
         let FacePlace { shape, tangents: [a, b], bends: [aa, ab, bb], n, to, .. } = &place;
+        let (_, slopes) = self.contact.parts.surface.rise(patch.face, place.xi);
         for column in columns {
             let (mut apart, spin) = tool_motion(tool, column, line.c);
             let (carried, mut turned) = (apart, [Vec3::zero(); 2]);
@@ -238,7 +239,7 @@ impl NodesInPlace<'_> {
                 weight: area[1] * dxi[0] + area[2] * dxi[1],
                 xi: dxi,
                 bulge: 0.0,
-                gap: n.dot(change) + dn.dot(*to),
+                gap: n.dot(change) + dn.dot(*to) - slopes[0] * dxi[0] - slopes[1] * dxi[1],
                 n: dn,
                 v: point.touched.as_ref().map_or(Vec3::zero(), slid),
                 s: [0.0; 2],

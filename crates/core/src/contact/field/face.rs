@@ -161,7 +161,7 @@ impl FieldFace {
     }
 
     /// Reference coordinates of the side at those of the face, and their derivatives along these: the map is affine.
-    fn on_side(&self, xi: [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
+    pub fn on_side(&self, xi: [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
         match self.part {
             SidePart::Whole => (xi, [[1.0, 0.0], [0.0, 1.0]]),
             SidePart::Half([from, to]) => {

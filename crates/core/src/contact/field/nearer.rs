@@ -162,10 +162,12 @@ impl Configuration<'_> {
     ) -> Option<PlaceGap> {
         let at = face.at(xi);
         let (x, n) = (at.x, at.normal.unit());
+        let rise = self.contact.parts.surface.rise(number, xi).0;
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
-                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap: foot.gap, nearest: true })
+                let gap = foot.gap - rise;
+                foot.beyond.is_none().then_some(PlaceGap { x, n: foot.normal, gap, nearest: true })
             }
             TargetInPlace::Faces(faces) => {
                 let ray = FaceRay { x, n };
@@ -179,7 +181,8 @@ impl Configuration<'_> {
                     faces_it && together(other) && self.contact.may_touch(number, other)
                 };
                 let (other, hit) = faces.nearest(&ray, range, admits)?;
-                Some(PlaceGap { x, n, gap: hit.gap, nearest: self.contact.piece_of(other) == piece })
+                let gap = hit.gap - rise - faces.rise(other, hit.s);
+                Some(PlaceGap { x, n, gap, nearest: self.contact.piece_of(other) == piece })
             }
         }
     }

@@ -7,14 +7,16 @@ use super::face::{CORNERS, PlacedFace, ShapeFunctions, WHOLE};
 use super::faces::TargetFaces;
 use super::nodes::NodesInPlace;
 use super::space::{CutFace, INTEGRALS};
-use super::surface::NodalNormal;
+use super::surface::{FieldSurface, NodalNormal};
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
 use crate::tool::NearestPoint;
 
 /// A patch in place, with all that its points have in common.
 pub struct PatchInPlace<'a> {
-    /// Its face.
+    /// The surface,
+    pub surface: &'a FieldSurface,
+    /// and its face there.
     pub face: FaceInPlace<'a>,
     /// The averaged normals at the corners.
     pub normals: [Option<NodalNormal>; CORNERS],
@@ -59,6 +61,7 @@ impl<'a> PatchInPlace<'a> {
             FieldTarget::Faces(faces) => (None, Some((faces, at.placed(&faces.surface.faces[patch.target])))),
         };
         let mut patch = Self {
+            surface,
             face,
             normals,
             tool,

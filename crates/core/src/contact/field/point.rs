@@ -71,7 +71,7 @@ pub struct PatchPoint {
     pub dual: ShapeFunctions,
     /// Shape functions of the face.
     pub shape: ShapeFunctions,
-    /// Gap, negative for penetration.
+    /// Gap between the smooth surfaces that faces stand for, negative for penetration.
     pub gap: f64,
     /// By how much the face lies nearer to the target than one of first degree between its corners.
     pub bulge: f64,
@@ -140,6 +140,18 @@ impl PatchInPlace<'_> {
         Some((Sight::Face(hit), n, hit.gap, hit.y))
     }
 
+    /// How far the smooth surfaces that faces of first degree stand for rise above both of these, with the slopes along the coordinates of the
+    /// face and of what it sees. Of a polygon in place of a circle, which stands off by the height of its chords, bodies that fit would be
+    /// told apart by that.
+    pub fn rise(&self, xi: [f64; 2], sight: &Sight) -> (f64, [f64; 2], [f64; 2]) {
+        let (own, slopes) = self.surface.rise(self.patch.face, xi);
+        let (seen, others) = match (sight, &self.seen) {
+            (Sight::Face(hit), Some((faces, _))) => faces.surface.rise(self.patch.target, hit.s),
+            _ => (0.0, [0.0; 2]),
+        };
+        (own + seen, slopes, others)
+    }
+
     /// The weight of a place by whether it looks at what it sees, and its slope along the cosine.
     pub fn facing(&self, xi: [f64; 2], n: Vec3) -> [f64; 2] {
         if self.tool.is_none() {
@@ -163,7 +175,9 @@ impl PatchInPlace<'_> {
     ) -> PointRates {
         let (xi, (dxi, darea)) = (spot.xi, self.spot_rates(spot, column, bounds));
         let dx = self.moved(column, &point.shape) + frame.tangents[0] * dxi[0] + frame.tangents[1] * dxi[1];
-        let (gap, n, s, y) = self.sight_rates(point, column, (frame, dx, dxi), turning);
+        let (mut gap, n, s, y) = self.sight_rates(point, column, (frame, dx, dxi), turning);
+        let (_, slopes, others) = self.rise(xi, &point.sight);
+        gap -= (0..2).map(|k| slopes[k] * dxi[k] + others[k] * s[k]).sum::<f64>();
         let mut dfacing = 0.0;
         if facing[1] != 0.0 {
             let (xi, dxi, n, dn) = match (&self.middle, &self.tool) {

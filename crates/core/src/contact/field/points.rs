@@ -110,7 +110,7 @@ impl PatchPoints {
                 functions,
                 dual,
                 shape,
-                gap,
+                gap: gap - patch.rise(xi, &sight).0,
                 bulge,
                 n,
                 v,

@@ -7,7 +7,7 @@ use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
 use crate::contact::record::{ContactRecord, entry};
-use crate::contact::{Borne, Move, Overlap};
+use crate::contact::{Borne, Move};
 use crate::system::History;
 use crate::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,9 +46,9 @@ impl FieldContact {
                     TargetInPlace::Faces(faces) => {
                         let ray = FaceRay { x: at.x, n: at.normal.unit() };
                         let hit = faces.project(patch.target, &ray);
-                        let meets =
-                            |hit: &FaceProjection| faces.holds(patch.target, hit.s, 1e-6) && hit.gap < -self.least;
-                        hit.filter(meets).map(|hit| ray.n * hit.gap)
+                        let meets = |hit: &FaceProjection| faces.holds(patch.target, hit.s, 1e-6);
+                        let gap = |hit: FaceProjection| hit.gap - faces.rise(patch.target, hit.s);
+                        hit.filter(meets).map(gap).filter(|gap| *gap < -self.least).map(|gap| ray.n * gap)
                     }
                 };
                 let farther = |by: &Vec3, other: Option<&Move>| other.is_none_or(|other| by.norm() > other.by.norm());
@@ -248,118 +248,6 @@ impl FieldContact {
         (count >= MANY && sum > 0.0).then(|| (jumps / sum, worst.1))
     }
 
-    /// How far the facets of convex surfaces lie inside these in the mean, where a contact is no wider than two rows of nodes and bears on one or
-    /// two facets: what is round is then touched later than it should be, by a good part of the approach (of Hertz, as the square of their number).
-    pub fn few_facets(&self, history: &History) -> Option<f64> {
-        let surface = self.surface();
-        let bears = |node: usize| self.slots_of(node, history).filter(|values| values[entry::STATUS] > 0.0);
-        let closed: Vec<bool> = (0..surface.nodes.len()).map(|node| bears(node).next().is_some()).collect();
-        let is_inner = |node: usize| surface.neighbours(node).all(|beside| closed[beside]);
-        let bearing = || (0..closed.len()).filter(|&node| closed[node]);
-        if bearing().next().is_none() || bearing().any(is_inner) {
-            return None;
-        }
-        let own = surface.rises(self.mesh());
-        let seen = self.parts.target.as_faces().map(|faces| (faces, faces.surface.rises(self.mesh())));
-        let opposite = |values: &[f64]| {
-            let (faces, rises) = seen.as_ref()?;
-            Some(rises[&faces.surface.faces.get(values[entry::SEGMENT] as usize)?.side])
-        };
-        let rise = |node: usize| {
-            let most = surface.nodes[node].support.iter().map(|&(face, _)| own[&surface.faces[face].side]);
-            let other = bears(node).filter_map(opposite);
-            most.fold(f64::NEG_INFINITY, f64::max) + other.reduce(f64::max).unwrap_or(0.0)
-        };
-        let rise = bearing().map(rise).fold(f64::NEG_INFINITY, f64::max);
-        (rise > FACETED * surface.mean_size(self.mesh())).then_some(rise)
-    }
-
-    /// Facets whose mean distance is not that of the curved surfaces they stand for: what they add to an overlap that is to be pressed
-    /// apart, or take from it, is pressure; so is what they add to the motion that presses one surface into another that it fits.
-    /// As a part of that, and in words.
-    pub fn facets(&self, u: &[f64], history: &History) -> Option<(f64, String)> {
-        self.parts.target.as_faces().filter(|_| self.parts.options.overlap != Overlap::Fit)?;
-        if (0..self.slots()).any(|slot| Overlap::fits(history.slot(slot))) {
-            return None;
-        }
-        let overlaps =
-            (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
-        let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
-        // A few nodes that touch are no fit.
-        let pressed = 4.0 * count > self.nodal_slots() as f64;
-        let places = self.facet_places();
-        // By how much the facets of both sides stand deeper in each other than smooth surfaces.
-        let [rise, area] = [|place: &FacetPlace| place.rise, |place: &FacetPlace| place.area]
-            .map(|of| places.iter().map(of).sum::<f64>());
-        let deeper = if area > 0.0 { -rise / area } else { 0.0 };
-        let clearance = if pressed { -sum / count } else { self.clearance(places)? };
-        // What the curved surfaces overlap by, and where that is nothing or little what moves them into each other, as heat does.
-        let overlap = -(clearance + deeper);
-        let moved = self.motion(u) + overlap;
-        let (of, size) = match overlap > (MISPLACED * deeper.abs()).max(LITTLE * moved) {
-            true => ("overlap", overlap),
-            false => ("motion beyond the clearance", moved),
-        };
-        let curved = deeper.abs() > ROUNDING * self.parts.surface.mean_size(&self.parts.mesh);
-        (curved && size > 0.0 && deeper.abs() > MISPLACED * size).then(|| {
-            let [all, closed] = [self.nodal_slots(), self.closed(history).count()];
-            let peak = match 10 * closed < 9 * all && closed > 0 && clearance <= deeper.abs() {
-                true => format!(" in the mean, its peak {:.1} times too high and more, as {closed} of {all} nodes bear", all as f64 / closed as f64),
-                false => String::new(),
-            };
-            let fit = if pressed { "" } else { ", or the clearance of a smooth fit by overlap = \"fit\"" };
-            let (way, off) = match deeper > 0.0 {
-                true => ("deeper in each other", "the pressure is too high by about as much"),
-                false if -deeper < size => ("farther apart", "the pressure is too low by about as much"),
-                false => ("farther apart", "little or nothing is left of the pressure"),
-            };
-            let ratio = deeper.abs() / size;
-            let words = format!(
-                "contact '{}': its facets stand {:.2e} {way} than the curved surfaces that they are meant for, {:.0} % of the {of} of \
-                 {size:.2e}, and {off}{peak}; cells of second degree on both sides, matching or finer \
-                 facets{fit}",
-                self.parts.name,
-                deeper.abs(),
-                100.0 * ratio
-            );
-            (ratio, words)
-        })
-    }
-
-    /// The distance in which most of the surface lay to the target before any motion, up to what facets leave surfaces that fit; none where
-    /// it differs by more from place to place.
-    fn clearance(&self, mut places: Vec<FacetPlace>) -> Option<f64> {
-        places.sort_by(|a, b| b.gap.total_cmp(&a.gap));
-        let median = -places.get(places.len() / 2)?.gap;
-        let near = |place: &&FacetPlace| (place.gap + median).abs() <= STANDS_OFF * place.off / place.area;
-        (2 * places.iter().filter(near).count() > self.parts.surface.nodes.len()).then_some(median.max(0.0))
-    }
-
-    /// The slots that see a face before any motion.
-    fn facet_places(&self) -> Vec<FacetPlace> {
-        let (mesh, still) = (&self.parts.mesh, vec![0.0; self.parts.dofs.count()]);
-        let mut rises = self.parts.surface.rises(mesh);
-        rises.extend(self.parts.target.as_faces().into_iter().flat_map(|faces| faces.surface.rises(mesh)));
-        let mut places = Vec::new();
-        self.each_seen(&still, (self.reach(&still), None), |_, stencil, sums| {
-            let mut place = FacetPlace { gap: sums.y[0], area: sums.area, rise: 0.0, off: 0.0 };
-            for (side, _, area) in stencil.sides(sums) {
-                let rise = area * rises[&side];
-                (place.rise, place.off) = (place.rise + rise, place.off + rise.abs());
-            }
-            places.push(place);
-        });
-        places
-    }
-
-    /// The largest displacement of a node of the surface or of what it may touch.
-    fn motion(&self, u: &[f64]) -> f64 {
-        let surfaces = [Some(&self.parts.surface), self.parts.target.as_faces().map(|faces| &faces.surface)];
-        let nodes = surfaces.into_iter().flatten().flat_map(|surface| &surface.faces).flat_map(|face| &face.nodes);
-        let moved = nodes.map(|&node| moved(Vec3::zero(), &u[self.parts.dofs.displacements(node)]).norm());
-        moved.fold(0.0, f64::max)
-    }
-
     /// How far the facets of both sides stand off a smooth surface at most, a length.
     pub(super) fn sagitta(&self) -> f64 {
         let most = |surface: &FieldSurface| surface.largest_sagitta(self.mesh());
@@ -367,27 +255,5 @@ impl FieldContact {
     }
 }
 
-/// A slot that sees a face before any motion.
-struct FacetPlace {
-    /// Its penetration, and its area.
-    gap: f64,
-    area: f64,
-    /// What smooth surfaces rise above the sides around it on either side of the contact, times its area, and that by size.
-    rise: f64,
-    off: f64,
-}
-
-/// Distance of facets from a smooth surface at a node over that in the mean, at most: in the middle of a side it is half as much again,
-/// and the function of a node is negative in part.
-const STANDS_OFF: f64 = 3.0;
 /// Nodes from which on their pressures can be told rough.
 const MANY: usize = 5;
-/// Mean distance of facets from curved surfaces over the size of a face, from which on one of them is none of those: two of second degree that turn by
-/// ten degrees stand for a fifth of it.
-const FACETED: f64 = 5e-4;
-/// The same, up to which they are flat.
-const ROUNDING: f64 = 1e-6;
-/// Overlap over the motion, up to which it is what a drawing rounds, and the motion presses.
-const LITTLE: f64 = 2e-3;
-/// Mean distance of facets from curved surfaces over the overlap, or the motion, from which on it is told.
-const MISPLACED: f64 = 0.02;

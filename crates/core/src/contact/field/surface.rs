@@ -31,6 +31,16 @@ pub struct FieldNode {
     on_axis: bool,
 }
 
+/// Faces that meet at a larger angle form a crease in the plane where at their other ends they turn by less than this part of it: what goes round
+/// in chords turns at each.
+const KINK: f64 = 0.25;
+const ALONE: f64 = 0.1;
+
+/// Cosine to an edge from which on another one goes on along it beyond the end.
+const ALONG: f64 = 0.5;
+/// Lean of a normal up to which a surface is flat.
+const FLAT: f64 = 1e-6;
+
 /// The sum of area vectors at a node of the field.
 #[derive(Debug, Clone, Copy)]
 pub struct NodalNormal {
@@ -70,6 +80,8 @@ pub struct FieldSurface {
     pub curved: Vec<bool>,
     /// The largest angle of each face to those beside it of its smooth piece before any motion.
     pub bends: Vec<f64>,
+    /// For each face how far the smooth surface that it stands for rises above the middles of the edges of its side, outward.
+    pub caps: Vec<Option<[f64; CORNERS]>>,
     /// For each face of any of these what makes the functions of its corners biorthogonal to these.
     pub duals: Vec<Option<DualFactors>>,
     /// Whether faces are edges of a plane model.
@@ -103,6 +115,7 @@ impl FieldSurface {
         let thickness = if plane && !revolves { thickness } else { 1.0 };
         let mut surface = Self { faces, plane, revolves, thickness, ..Self::default() };
         surface.number(mesh, held);
+        surface.caps = surface.heights(mesh);
         surface
     }
 
@@ -121,9 +134,19 @@ impl FieldSurface {
         let axis = 1e-9 * mesh.size();
         let around = self.around();
         let normals: Vec<Vec3> = self.faces.iter().map(|face| self.middle_normal(face, &face.at_rest(mesh))).collect();
+        let angle = |f: usize, g: usize| normals[f].dot(normals[g]).clamp(-1.0, 1.0).acos();
+        // In the plane the largest angle at the other ends of two faces.
+        let beside = |f: usize, g: usize| {
+            let ends = [f, g].into_iter().flat_map(|face| (0..2).map(move |c| (face, c)));
+            let others = ends
+                .flat_map(|(face, c)| around[&self.faces[face].corner_node(c)].iter().map(move |&(h, _)| (face, h)));
+            let turns = others.filter(|&(face, h)| h != f && h != g && h != face).map(|(face, h)| angle(face, h));
+            turns.filter(|turn| *turn < CREASE).fold(0.0, f64::max)
+        };
         let smooth = |f: usize, g: usize| {
-            let cosine = normals[f].dot(normals[g]).clamp(-1.0, 1.0);
-            cosine.acos() < CREASE && shared(&self.faces[f], &self.faces[g]) >= if self.plane { 1 } else { 2 }
+            let turn = angle(f, g);
+            let bent = turn < CREASE && !(self.plane && turn > KINK && beside(f, g) < ALONE * turn);
+            bent && shared(&self.faces[f], &self.faces[g]) >= if self.plane { 1 } else { 2 }
         };
         let (mut pieces, mut field) =
             (DisjointSets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
@@ -404,38 +427,99 @@ impl FieldSurface {
         self.nodes[node].support.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// By how much a smooth surface rises above each side in the mean, outward: of the parabola over an edge `d` between ends at which the
-    /// surface's normals lean by `t` over `|d|` from those of the side `(t_a + t_b) / 12`, a fifth of that where the edge follows the
-    /// surface and meets it in its middle too; of a face half the sum of that over its edges. Where the surface ends it goes on as at the
-    /// other end of the edge.
-    pub fn rises(&self, mesh: &Mesh) -> BTreeMap<Side, f64> {
+    /// How far the smooth surface that it stands for rises above the middles of the edges of each side with straight edges, outward: of the
+    /// parabola over an edge `d` between ends at which its normals lean by `t_a` and `t_b` over `|d|` from those of the side,
+    /// `min(t_a, t_b) / 4`, as what is flat meets what is curved with half of that. None where they lean to two sides, of what is flat, and of
+    /// edges of second degree that follow the surface themselves. Where the surface ends it goes on as at the other end of the edge.
+    fn heights(&self, mesh: &Mesh) -> Vec<Option<[f64; CORNERS]>> {
         let mut whole = Self { plane: self.plane, revolves: self.revolves, ..Self::default() };
         let mut sides: Vec<Side> = self.faces.iter().map(|face| face.side).collect();
+        sides.sort_unstable();
         sides.dedup();
         whole.faces = sides.iter().map(|&side| FieldFace::new(mesh, side)).collect();
         whole.number(mesh, &[]);
         let placed = |f: usize| whole.faces[f].at_rest(mesh);
+        let normals: Vec<Vec3> = (0..whole.nodes.len()).map(|node| whole.normal(node, placed).unit).collect();
         let middle = |f: usize| whole.faces[f].shape(whole.faces[f].middle()).value(placed(f).nodes());
-        let rise = |f: usize| {
-            let (face, rest) = (&whole.faces[f], placed(f));
+        let height = |f: usize, rest: &PlacedFace, [a, b]: [usize; 2]| {
+            let d = rest.nodes()[b] - rest.nodes()[a];
             // What the surface leans beyond the side along an edge from a corner, unknown where it ends there; what the side does itself.
             let lean = |corner: usize, d: Vec3| {
                 let (node, x) = (whole.field[f][corner], rest.nodes()[corner]);
-                let goes_on = |&(f, _): &(usize, usize)| (middle(f) - x).dot(d) < 0.0;
-                let own = whole.area_vector(face, &rest, corner).unit();
-                let by = (own - whole.normal(node, placed).unit).dot(d);
+                let goes_on = |&(other, _): &(usize, usize)| (middle(other) - x).dot(d) < 0.0;
+                let own = whole.area_vector(&whole.faces[f], rest, corner).unit();
+                let by = (own - normals[node]).dot(d);
                 (whole.nodes[node].support.iter().any(goes_on).then_some(by), own.dot(d))
             };
-            let edge = |a: usize, b: usize| {
-                let d = rest.nodes()[b] - rest.nodes()[a];
-                let ((from, own_from), (to, own_to)) = (lean(a, d), lean(b, -d));
-                let (beyond, own) = (from.or(to).unwrap_or(0.0) + to.or(from).unwrap_or(0.0), own_from + own_to);
-                beyond / if face.kind.degree > 1 && own.abs() > beyond.abs() { 60.0 } else { 12.0 }
-            };
-            let count = face.corners();
-            if count == 2 { edge(0, 1) } else { 0.5 * (0..count).map(|a| edge(a, (a + 1) % count)).sum::<f64>() }
+            let ((from, own_from), (to, own_to)) = (lean(a, d), lean(b, -d));
+            let [from, to] = [from.or(to), to.or(from)].map(Option::unwrap_or_default);
+            let least = from.abs().min(to.abs());
+            let stands_off = from * to > 0.0 && least > FLAT * d.norm() && (own_from + own_to).abs() < least;
+            if stands_off { 0.25 * from.signum() * least } else { 0.0 }
         };
-        sides.iter().enumerate().map(|(f, &side)| (side, rise(f))).collect()
+        let of = |f: usize| {
+            let (rest, count, mut heights) = (placed(f), whole.faces[f].corners(), [0.0; CORNERS]);
+            let edges = if count == 2 { 1 } else { count };
+            (0..edges).for_each(|k| heights[k] = height(f, &rest, [k, (k + 1) % count]));
+            (heights != [0.0; CORNERS]).then_some(heights)
+        };
+        let mut all: Vec<_> = (0..sides.len()).map(of).collect();
+        // One chord alone is a chamfer.
+        let ends =
+            |f: usize, k: usize| [k, (k + 1) % whole.faces[f].corners()].map(|corner| whole.faces[f].nodes[corner]);
+        let ways = |f: usize| {
+            let raised =
+                all[f].iter().flat_map(|heights| heights.iter().enumerate()).filter(|(_, height)| **height != 0.0);
+            raised.map(move |(k, _)| ends(f, k))
+        };
+        let mut beyond: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for [a, b] in (0..sides.len()).flat_map(ways) {
+            [(a, b), (b, a)].into_iter().for_each(|(node, other)| beyond.entry(node).or_default().push(other));
+        }
+        let goes_on = |[node, other]: [usize; 2]| {
+            let way = (mesh.points[node] - mesh.points[other]).unit();
+            let along = |to: &usize| (mesh.points[*to] - mesh.points[node]).unit().dot(way) > ALONG;
+            beyond[&node].iter().any(along)
+        };
+        for f in 0..sides.len() {
+            let Some(heights) = &mut all[f] else { continue };
+            for (k, height) in heights.iter_mut().enumerate().filter(|(_, height)| **height != 0.0) {
+                let [a, b] = ends(f, k);
+                if !goes_on([a, b]) && !goes_on([b, a]) {
+                    *height = 0.0;
+                }
+            }
+            all[f] = all[f].filter(|heights| *heights != [0.0; CORNERS]);
+        }
+        self.faces.iter().map(|face| sides.binary_search(&face.side).ok().and_then(|f| all[f])).collect()
+    }
+
+    /// How far the smooth surface that a face stands for rises above it at a place, outward, with the slopes of that along the reference
+    /// coordinates: parabolas over the edges of its side, that fall to zero over the side.
+    pub fn rise(&self, face: usize, xi: [f64; 2]) -> (f64, [f64; 2]) {
+        let Some(heights) = self.caps[face] else { return (0.0, [0.0; 2]) };
+        let face = &self.faces[face];
+        let ([x, y], on_side) = face.on_side(xi);
+        let (rise, slopes) = match face.kind.linear.nodes.len() {
+            2 => (heights[0] * (1.0 - x * x), [-2.0 * x * heights[0], 0.0]),
+            3 => {
+                let functions = ShapeFunctions::of(face.kind.linear, [x, y]);
+                (0..3).fold((0.0, [0.0; 2]), |(rise, slopes), a| {
+                    let (b, h) = ((a + 1) % 3, 4.0 * heights[a]);
+                    let [one, other] = [functions.n[a], functions.n[b]];
+                    let slope = |k: usize| slopes[k] + h * (functions.dn[a][k] * other + one * functions.dn[b][k]);
+                    (rise + h * one * other, [slope(0), slope(1)])
+                })
+            }
+            _ => {
+                let middle = |[from, to]: [f64; 2]| [0.5 * (from + to), 0.5 * (to - from)];
+                let [[one, leans], [other, tilts]] =
+                    [middle([heights[0], heights[2]]), middle([heights[3], heights[1]])];
+                let (one, other, u, v) = (one + leans * y, other + tilts * x, 1.0 - x * x, 1.0 - y * y);
+                (u * one + v * other, [-2.0 * x * one + v * tilts, u * leans - 2.0 * y * other])
+            }
+        };
+        (rise, [0, 1].map(|a| slopes[0] * on_side[0][a] + slopes[1] * on_side[1][a]))
     }
 
     /// Mean size of its faces.

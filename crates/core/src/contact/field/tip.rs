@@ -552,7 +552,7 @@ impl NodesInPlace<'_> {
             functions: ShapeFunctions::constant(1.0),
             dual: ShapeFunctions::constant(0.0),
             shape: tip.foot.at.shape,
-            gap: tip.foot.to.dot(n) - landing.radius,
+            gap: tip.foot.to.dot(n) - landing.radius - self.contact.parts.surface.rise(patch.face, xi).0,
             bulge: 0.0,
             n,
             v: touched.map_or(Vec3::zero(), |touched| touched.tip - touched.now),
@@ -577,6 +577,7 @@ impl NodesInPlace<'_> {
         let (Some(tip), [point]) = (self.tip(patch, landing), points) else { return };
         let TipInPlace { tool, landing, ref foot, n, .. } = tip;
         let FootInPlace { ref at, centre, to, .. } = *foot;
+        let (_, [slope, _]) = self.contact.parts.surface.rise(patch.face, point.xi);
         for column in columns {
             let carried = |place: Vec3| tool_motion(tool, column, place).0;
             let (dxi, apart, dtangent) = foot.rates(tool, column);
@@ -592,7 +593,7 @@ impl NodesInPlace<'_> {
                 weight: tip.weight_rate(dxi, column),
                 xi: [dxi, 0.0],
                 bulge: 0.0,
-                gap: n.dot(apart) + if stays { dn.dot(to) } else { 0.0 },
+                gap: n.dot(apart) + if stays { dn.dot(to) } else { 0.0 } - slope * dxi,
                 n: dn,
                 v: point.touched.as_ref().map_or(Vec3::zero(), slid),
                 s: [0.0; 2],

@@ -136,20 +136,6 @@ impl Touching<'_> {
             Self::Field(contact) => contact.borne_by_tips(history),
         }
     }
-    /// How far the facets of a curved surface lie inside it, where one or two of them bear.
-    pub fn few_facets(&self, history: &History) -> Option<f64> {
-        match self {
-            Self::Points(_) => None,
-            Self::Field(contact) => contact.few_facets(history),
-        }
-    }
-    /// What must be said of the facets that its overlap is between, and their part of it.
-    pub fn facets(&self, u: &[f64], history: &History) -> Option<(f64, String)> {
-        match self {
-            Self::Points(_) => None,
-            Self::Field(contact) => contact.facets(u, history),
-        }
-    }
     /// The largest penetration that augmentation leaves at a node, over the size of its elements, where there is any.
     pub fn nodal_penetration(&self, history: &History) -> Option<f64> {
         match self {

@@ -101,14 +101,14 @@ displacement."roller.inner" = {{ x = 0.0, y = 0.0 }}
     last(&deck, "contact.roller.force.y").abs()
 }
 
-/// 669 and 961 of 1072 before; with 24 cells the run stopped, its contact never closed. A roller of nine facets is lower than a round one
-/// by 6 % of the stroke.
+/// 669 and 961 of 1072 before; with 24 cells the run stopped, its contact never closed. The top of a roller of nine facets is lower than a round
+/// one by 6 % of the stroke.
 #[test]
 fn a_bar_on_a_roller_that_deforms() {
     let right = soft_roller("quad8", (72, "quad8"), 4);
-    for (bar, cells, lower) in [("quad4", 9, 0.063), ("quad8", 9, 0.063), ("quad4", 24, 0.0), ("quad8", 24, 0.0)] {
+    for (bar, cells) in [("quad4", 9), ("quad8", 9), ("quad4", 24), ("quad8", 24)] {
         let force = soft_roller(bar, (cells, "quad4"), 1) / right;
-        assert!((force + lower - 1.0).abs() < 0.05, "{bar}, {cells} cells: {force}");
+        assert!((force - 1.0).abs() < 0.05, "{bar}, {cells} cells: {force}");
     }
 }
 

@@ -107,24 +107,35 @@ fn large_strain(certificate: &Certificate) -> Vec<String> {
 /// Closed points along one direction below which the force of a contact is not smooth.
 const FEW: usize = 3;
 
-/// What it means that a contact never closed, or at so few points that its force changes with each of them.
+/// What it means that contacts never closed, or at so few points that their force changes with each of them.
 fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
     let few = (if space == Space::Solid { FEW * FEW } else { FEW }) as f64;
-    let said = |(contact, most): (&str, f64)| match most {
-        0.0 => Some(format!(
-            "{contact} never closed in the whole run; `asperity check` says what its points see: the surface or the target \
+    let of = |is: &dyn Fn(f64) -> bool| certificate.each("closed_points").filter(|(_, most)| is(*most)).collect();
+    let (never, on_few): (Vec<_>, Vec<_>) = (of(&|most| most == 0.0), of(&|most| most > 0.0 && most < few));
+    let never = together(&never).map(|contacts| {
+        format!(
+            "{contacts} never closed in the whole run; `asperity check` says what points see: the surface or the target \
              may be another than is meant, a tool may have its material on the wrong side, or nothing moves them together"
-        )),
-        most if most < few => Some(format!(
-            "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves: under a round \
+        )
+    });
+    let on_few = together(&on_few).map(|contacts| {
+        let most = on_few.iter().fold(0.0, |most: f64, (_, points)| most.max(*points));
+        format!(
+            "{contacts} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves: under a round \
              body it may be wrong by half; a finer surface gives it more"
-        )),
-        _ => None,
-    };
-    certificate.each("closed_points").filter_map(said).collect()
+        )
+    });
+    never.into_iter().chain(on_few).collect()
 }
 
-/// Changes of stability that are told one by one.
+/// Names of contacts, of many the first and how many more; none of none.
+fn together(contacts: &[(&str, f64)]) -> Option<String> {
+    let told = contacts.iter().take(TOLD).map(|(contact, _)| *contact).collect::<Vec<_>>().join(", ");
+    let more = contacts.len().saturating_sub(TOLD);
+    (!contacts.is_empty()).then(|| if more > 0 { format!("{told} and {more} more contacts") } else { told })
+}
+
+/// Changes of stability, and contacts, that are told one by one.
 const TOLD: usize = 5;
 
 /// Where stability was lost or found again.

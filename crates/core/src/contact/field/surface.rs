@@ -33,7 +33,7 @@ pub struct FieldNode {
 
 /// Faces that meet at a larger angle form a crease in the plane where at their other ends they turn by less than this part of it: what goes round
 /// in chords turns at each.
-const KINK: f64 = 0.25;
+const KINK: f64 = 0.1;
 const ALONE: f64 = 0.1;
 
 /// Cosine to an edge from which on another one goes on along it beyond the end.
@@ -427,10 +427,29 @@ impl FieldSurface {
         self.nodes[node].support.iter().map(of).fold(0.0, f64::max)
     }
 
+    /// The normal at a node of the sphere, in the plane of the circle, through it and the corners beside it before any motion: the sum of the
+    /// normals of its faces over the products of the lengths of their edges there (Max, J. Graphics Tools 4(2), 1999), however long these are.
+    fn round_normal(&self, node: usize, mesh: &Mesh) -> Vec3 {
+        let FieldNode { support, on_axis, .. } = &self.nodes[node];
+        let mut sum = Vec3::zero();
+        for &(f, corner) in support {
+            let (face, count) = (&self.faces[f], self.faces[f].corners());
+            let x = |corner: usize| mesh.points[face.corner_node(corner % count)];
+            let [one, other] = [x(corner + 1) - x(corner), x(corner + count - 1) - x(corner)];
+            let edges = if self.plane { [x(1) - x(0), Vec3::axis(2)] } else { [one, other] };
+            sum += edges[0].cross(edges[1]) * edges.map(|edge| edge.dot(edge)).iter().product::<f64>().recip();
+        }
+        if *on_axis {
+            sum[0] = 0.0;
+        }
+        sum.unit()
+    }
+
     /// How far the smooth surface that it stands for rises above the middles of the edges of each side with straight edges, outward: of the
-    /// parabola over an edge `d` between ends at which its normals lean by `t_a` and `t_b` over `|d|` from those of the side,
-    /// `min(t_a, t_b) / 4`, as what is flat meets what is curved with half of that. None where they lean to two sides, of what is flat, and of
-    /// edges of second degree that follow the surface themselves. Where the surface ends it goes on as at the other end of the edge.
+    /// arc over an edge, or the parabola, at whose ends normals lean by an angle `t` from those of the side, half of its length times
+    /// `tan t/2`, with the lesser of both, as what is flat meets what is curved with a part of that. None where they lean to two sides, of
+    /// what is flat, of one chord alone, and of edges of second degree that follow the surface themselves. Where the surface ends it goes on as
+    /// at the other end of the edge.
     fn heights(&self, mesh: &Mesh) -> Vec<Option<[f64; CORNERS]>> {
         let mut whole = Self { plane: self.plane, revolves: self.revolves, ..Self::default() };
         let mut sides: Vec<Side> = self.faces.iter().map(|face| face.side).collect();
@@ -439,7 +458,7 @@ impl FieldSurface {
         whole.faces = sides.iter().map(|&side| FieldFace::new(mesh, side)).collect();
         whole.number(mesh, &[]);
         let placed = |f: usize| whole.faces[f].at_rest(mesh);
-        let normals: Vec<Vec3> = (0..whole.nodes.len()).map(|node| whole.normal(node, placed).unit).collect();
+        let normals: Vec<Vec3> = (0..whole.nodes.len()).map(|node| whole.round_normal(node, mesh)).collect();
         let middle = |f: usize| whole.faces[f].shape(whole.faces[f].middle()).value(placed(f).nodes());
         let height = |f: usize, rest: &PlacedFace, [a, b]: [usize; 2]| {
             let d = rest.nodes()[b] - rest.nodes()[a];
@@ -453,9 +472,11 @@ impl FieldSurface {
             };
             let ((from, own_from), (to, own_to)) = (lean(a, d), lean(b, -d));
             let [from, to] = [from.or(to), to.or(from)].map(Option::unwrap_or_default);
-            let least = from.abs().min(to.abs());
-            let stands_off = from * to > 0.0 && least > FLAT * d.norm() && (own_from + own_to).abs() < least;
-            if stands_off { 0.25 * from.signum() * least } else { 0.0 }
+            let (least, length) = (from.abs().min(to.abs()), d.norm());
+            let sine = (least / length).min(1.0);
+            let stands_off = from * to > 0.0 && sine > FLAT && (own_from + own_to).abs() < least;
+            let height = 0.5 * length * sine / (1.0 + (1.0 - sine * sine).sqrt());
+            if stands_off { from.signum() * height } else { 0.0 }
         };
         let of = |f: usize| {
             let (rest, count, mut heights) = (placed(f), whole.faces[f].corners(), [0.0; CORNERS]);

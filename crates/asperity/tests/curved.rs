@@ -216,11 +216,16 @@ fn facets_on_a_tool_bear_as_their_circle() {
         *columns(&made, &run(&made))["contact.c.thrust"].last().unwrap()
     };
     let (flat, round) = (thrust(disc("quad8", 60)), thrust(bore("quad8", 24)));
+    // Chords that grow to five times their length stand for the same circle.
+    let graded = bore("quad4", 16)
+        .replace("from = [12.0, 0.0], to = [24.99, 90.0], cells = [6, 16]", "from = [12.0, 0.0], along_radius = [{ to = 24.99, cells = 6 }], along_angle = [{ to = 90.0, cells = 16, ratio = 5.0 }]");
+    assert!(graded.contains("ratio"));
     for (found, exact, within) in [
         (thrust(disc("quad4", 18)), flat, 0.06),
         (thrust(disc("quad4", 36)), flat, 0.04),
         (thrust(bore("quad4", 12)), round, 0.01),
         (thrust(bore("quad4", 24)), round, 0.01),
+        (thrust(graded), round, 0.02),
     ] {
         assert!((found / exact - 1.0).abs() < within, "{found} {exact}");
     }

@@ -447,9 +447,8 @@ impl FieldSurface {
 
     /// How far the smooth surface that it stands for rises above the middles of the edges of each side with straight edges, outward: of the
     /// arc over an edge, or the parabola, at whose ends normals lean by an angle `t` from those of the side, half of its length times
-    /// `tan t/2`, with the lesser of both, as what is flat meets what is curved with a part of that. None where they lean to two sides, of
-    /// what is flat, of one chord alone, and of edges of second degree that follow the surface themselves. Where the surface ends it goes on as
-    /// at the other end of the edge.
+    /// `tan t/2`. None where they lean to two sides, of what is flat, of one chord alone, and of edges of second degree that follow the
+    /// surface themselves. Where the surface ends it goes on as at the other end of the edge.
     fn heights(&self, mesh: &Mesh) -> Vec<Option<[f64; CORNERS]>> {
         let mut whole = Self { plane: self.plane, revolves: self.revolves, ..Self::default() };
         let mut sides: Vec<Side> = self.faces.iter().map(|face| face.side).collect();
@@ -472,9 +471,11 @@ impl FieldSurface {
             };
             let ((from, own_from), (to, own_to)) = (lean(a, d), lean(b, -d));
             let [from, to] = [from.or(to), to.or(from)].map(Option::unwrap_or_default);
+            // The mean, but no more than twice the lesser: flat faces are flat up to where a curve begins (the limiter of van Leer, 1977).
             let (least, length) = (from.abs().min(to.abs()), d.norm());
-            let sine = (least / length).min(1.0);
-            let stands_off = from * to > 0.0 && sine > FLAT && (own_from + own_to).abs() < least;
+            let lean = (0.5 * (from + to).abs()).min(2.0 * least);
+            let sine = (lean / length).min(1.0);
+            let stands_off = from * to > 0.0 && sine > FLAT && (own_from + own_to).abs() < lean;
             let height = 0.5 * length * sine / (1.0 + (1.0 - sine * sine).sqrt());
             if stands_off { from.signum() * height } else { 0.0 }
         };

@@ -13,8 +13,8 @@
 //! Meng, IJNME 62, 2005; Popp, Gee & Wall, IJNME 79, 2009). Nothing is shared across a crease of the surface or between two
 //! smooth pieces of the target (Farah, Wall & Popp, IJNME 114, 2018).
 //!
-//! The way of a contact: [`surface`](FieldSurface) and `faces` or `tool` are who may touch whom and [`contact`](FieldContact) the two
-//! with their law; `cover`, `part` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
+//! The way of a contact: [`surface`](FieldSurface) and `faces` or `tool` are who may touch whom, `arc` the smooth surface that
+//! straight edges stand for, and [`contact`](FieldContact) the two with their law; `cover`, `part` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
 //! `support` is what such a search finds; `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all
 //! that follows from it along a `column` of the tangent, `points` all of a patch, which the `nodes` of its face share, `stencil` their
 //! sums for one node, with the share of a vertex of the body, `tip` the vertex of a wedge or a rounding within a face, `corner` one of the `corners` of a body, `nearer` what
@@ -22,6 +22,7 @@
 //! over a tool beside which the surface turns; `attempt` and `term` are the ones that equilibrium knows, `stiffen` raises the penalty, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
 //! differs is the cover of a face, which is in `space`, and the pose of a tool.
 
+mod arc;
 mod attempt;
 mod column;
 pub(super) mod configuration;

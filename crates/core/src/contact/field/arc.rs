@@ -6,7 +6,7 @@
 //! a curved patch between averaged normals (Vlachos, Peters, Boyd and Mitchell, Curved PN triangles, 2001), to leading order. It moves with the face.
 
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
-use super::surface::{FieldNode, FieldSurface};
+use super::surface::{ALONE, FieldNode, FieldSurface};
 use crate::mesh::{Mesh, Side};
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -21,6 +21,9 @@ impl FieldSurface {
     /// normals of its faces over the products of the lengths of their edges there (Max, J. Graphics Tools 4(2), 1999), however long these are.
     fn round_normal(&self, node: usize, mesh: &Mesh) -> Vec3 {
         let FieldNode { support, on_axis, .. } = &self.nodes[node];
+        if let Some(flat) = self.flat_beside(node, mesh) {
+            return flat;
+        }
         let mut sum = Vec3::zero();
         for &(f, corner) in support {
             let (face, count) = (&self.faces[f], self.faces[f].corners());
@@ -33,6 +36,24 @@ impl FieldSurface {
             sum[0] = 0.0;
         }
         sum.unit()
+    }
+
+    /// Of a node in the plane at which a curve in chords leaves what is flat the normal of that: the faces turn there by half of what they turn
+    /// at the next node on one side, and on the other not at all.
+    fn flat_beside(&self, node: usize, mesh: &Mesh) -> Option<Vec3> {
+        let &[one, other] = &self.nodes[node].support[..] else { return None };
+        let normal = |f: usize| self.middle_normal(&self.faces[f], &self.faces[f].at_rest(mesh));
+        let turn = |f: usize, g: usize| normal(f).cross(normal(g)).norm();
+        let here = turn(one.0, other.0);
+        let beyond = |(f, corner): (usize, usize)| {
+            let beside = self.nodes[self.field[f][1 - corner]].support.iter().find(|(g, _)| *g != f);
+            beside.map(|(g, _)| turn(f, *g))
+        };
+        let leaves = |flat: (usize, usize), round: (usize, usize)| {
+            let [flat_on, round_on] = [beyond(flat)?, beyond(round)?];
+            (flat_on < ALONE * here && round_on > here).then(|| normal(flat.0))
+        };
+        self.plane.then(|| leaves(one, other).or_else(|| leaves(other, one))).flatten()
     }
 
     /// How far the smooth surface that it stands for rises above the middles of the edges of each side with straight edges, outward: of the

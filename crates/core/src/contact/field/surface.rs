@@ -34,7 +34,7 @@ pub struct FieldNode {
 /// Faces that meet at a larger angle form a crease in the plane where at their other ends they turn by less than this part of it: what goes round
 /// in chords turns at each.
 const KINK: f64 = 0.1;
-const ALONE: f64 = 0.1;
+pub(super) const ALONE: f64 = 0.1;
 
 /// The sum of area vectors at a node of the field.
 #[derive(Debug, Clone, Copy)]

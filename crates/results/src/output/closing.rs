@@ -279,7 +279,7 @@ fn memory_of_tips(model: &Model, state: &State) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Frame;
+    use super::super::{Frame, Reading};
     use super::*;
 
     #[test]

@@ -114,15 +114,17 @@ impl FieldSurface {
             let along = |to: &usize| (mesh.points[*to] - mesh.points[node]).unit().dot(way) > ALONG;
             beyond[&node].iter().any(along)
         };
-        for f in 0..sides.len() {
-            let Some(heights) = &mut all[f] else { continue };
+        for (f, found) in all.iter_mut().enumerate() {
+            let Some(heights) = found else { continue };
             for (k, height) in heights.iter_mut().enumerate().filter(|(_, height)| **height != 0.0) {
                 let [a, b] = ends(f, k);
                 if !goes_on([a, b]) && !goes_on([b, a]) {
                     *height = 0.0;
                 }
             }
-            all[f] = all[f].filter(|heights| *heights != [0.0; CORNERS]);
+            if *heights == [0.0; CORNERS] {
+                *found = None;
+            }
         }
         self.faces.iter().map(|face| sides.binary_search(&face.side).ok().and_then(|f| all[f])).collect()
     }

@@ -21,7 +21,7 @@ pub enum FieldTarget {
     /// A rigid tool.
     Tool(RigidTool),
     /// Faces of bodies.
-    Faces(TargetFaces),
+    Faces(Box<TargetFaces>),
 }
 
 impl FieldTarget {
@@ -35,7 +35,7 @@ impl FieldTarget {
     }
     /// Faces of bodies.
     pub fn faces(surface: FieldSurface, mesh: &Mesh) -> Self {
-        Self::Faces(TargetFaces::new(surface, mesh))
+        Self::Faces(Box::new(TargetFaces::new(surface, mesh)))
     }
     /// The faces, if it is made of faces.
     pub fn as_faces(&self) -> Option<&TargetFaces> {

@@ -58,7 +58,7 @@ impl<'a> PatchInPlace<'a> {
         let face = FaceInPlace::with(surface, patch.face, at.placed(face), units);
         let (tool, seen) = match &at.contact.parts.target {
             FieldTarget::Tool(_) => (at.tool, None),
-            FieldTarget::Faces(faces) => (None, Some((faces, at.placed(&faces.surface.faces[patch.target])))),
+            FieldTarget::Faces(faces) => (None, Some((&**faces, at.placed(&faces.surface.faces[patch.target])))),
         };
         let mut patch = Self {
             surface,

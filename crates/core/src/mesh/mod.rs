@@ -20,7 +20,7 @@ pub use cells::{Cell, Face, Quadrature};
 pub use flat::{ROUNDING, flat_normal, is_curved, unit};
 pub use groups::{Group, Side};
 pub use measure::Adjacency;
-pub use smooth::CREASE;
+pub use smooth::{ALONG, CREASE, arc_height, round_share};
 pub use space::Space;
 pub use thickness::median;
 pub use unstructured::{CellView, Mesh, Numbers};

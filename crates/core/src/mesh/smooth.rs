@@ -15,7 +15,7 @@ pub const CREASE: f64 = 0.7;
 /// Sides whose normals differ by less are in one plane.
 const FLAT: f64 = 1e-6;
 /// Cosine to an edge from which on another one goes on along it beyond the end.
-const ALONG: f64 = 0.5;
+pub const ALONG: f64 = 0.5;
 /// What goes on beyond the end of an edge says how it curves if it is no shorter than this part of it.
 const SHORTEST: f64 = 0.25;
 /// Cosine of normals below which a piece ends at right angles to a plane, but for half the angle between its sides.
@@ -24,6 +24,17 @@ const ACROSS: f64 = 0.3;
 const SHARP: f64 = 0.95;
 /// The determinant of a raised cell is nowhere less than this part of that of the cell with straight edges.
 const THINNEST: f64 = 0.2;
+
+/// What a face with this area vector between its edges at a corner has in the normal there of the sphere, in the plane of the circle, through the
+/// corners around (Max 1999).
+pub fn round_share(area: Vec3, edges: &[Vec3]) -> Vec3 {
+    area * edges.iter().map(|edge| 1.0 / edge.dot(*edge)).product::<f64>()
+}
+
+/// Height of an arc over its chord of this length, which it leaves at an angle of this sine.
+pub fn arc_height(length: f64, sine: f64) -> f64 {
+    0.5 * length * sine / (1.0 + (1.0 - sine * sine).sqrt())
+}
 
 /// By what the way of a middle is shortened where a cell is crushed, and the part of it from which on the chord is kept.
 const EASED: f64 = 0.8;
@@ -82,7 +93,7 @@ impl Corner {
         if sine.abs() > CREASE.sin() {
             return Vec3::zero();
         }
-        across.unit() * (-0.5 * edge.norm() * sine / (1.0 + (1.0 - sine * sine).sqrt()))
+        across.unit() * -arc_height(edge.norm(), sine)
     }
 }
 
@@ -160,9 +171,8 @@ impl Boundary {
             let ends =
                 if self.plane { vec![1 - corner] } else { vec![(corner + 1) % count, (corner + count - 1) % count] };
             let edges: Vec<Vec3> = ends.iter().map(|&end| mesh.points[own[end]] - mesh.points[own[corner]]).collect();
-            let weight: f64 = edges.iter().map(|edge| 1.0 / edge.dot(*edge)).product();
             let area = if self.plane { self.normals[side] * edges[0].norm() } else { edges[0].cross(edges[1]) };
-            found.normal += area * weight;
+            found.normal += round_share(area, &edges);
             found.sides.push(self.normals[side]);
             found.edges.extend(edges);
             ends.iter().for_each(|&end| *found.times.entry(own[end]).or_default() += 1);

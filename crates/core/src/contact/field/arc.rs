@@ -7,12 +7,10 @@
 
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
 use super::surface::{ALONE, FieldNode, FieldSurface};
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{ALONG, Mesh, Side, arc_height, round_share};
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
 
-/// Cosine to an edge from which on another one goes on along it beyond the end.
-const ALONG: f64 = 0.5;
 /// Lean of a normal up to which a surface is flat.
 const FLAT: f64 = 1e-6;
 
@@ -21,16 +19,18 @@ impl FieldSurface {
     /// normals of its faces over the products of the lengths of their edges there (Max, J. Graphics Tools 4(2), 1999), however long these are.
     fn round_normal(&self, node: usize, mesh: &Mesh) -> Vec3 {
         let FieldNode { support, on_axis, .. } = &self.nodes[node];
-        if let Some(flat) = self.flat_beside(node, mesh) {
+        if let Some(flat) = self.plane.then(|| self.flat_beside(node, mesh)).flatten() {
             return flat;
         }
         let mut sum = Vec3::zero();
         for &(f, corner) in support {
             let (face, count) = (&self.faces[f], self.faces[f].corners());
             let x = |corner: usize| mesh.points[face.corner_node(corner % count)];
-            let [one, other] = [x(corner + 1) - x(corner), x(corner + count - 1) - x(corner)];
-            let edges = if self.plane { [x(1) - x(0), Vec3::axis(2)] } else { [one, other] };
-            sum += edges[0].cross(edges[1]) * edges.map(|edge| edge.dot(edge)).iter().product::<f64>().recip();
+            let edges = match self.plane {
+                true => [x(1) - x(0), Vec3::axis(2)],
+                false => [x(corner + 1) - x(corner), x(corner + count - 1) - x(corner)],
+            };
+            sum += round_share(edges[0].cross(edges[1]), &edges);
         }
         if *on_axis {
             sum[0] = 0.0;
@@ -53,7 +53,7 @@ impl FieldSurface {
             let [flat_on, round_on] = [beyond(flat)?, beyond(round)?];
             (flat_on < ALONE * here && round_on > here).then(|| normal(flat.0))
         };
-        self.plane.then(|| leaves(one, other).or_else(|| leaves(other, one))).flatten()
+        leaves(one, other).or_else(|| leaves(other, one))
     }
 
     /// How far the smooth surface that it stands for rises above the middles of the edges of each side with straight edges, outward: of the
@@ -87,8 +87,7 @@ impl FieldSurface {
             let lean = (0.5 * (from + to).abs()).min(2.0 * least);
             let sine = (lean / length).min(1.0);
             let stands_off = from * to > 0.0 && sine > FLAT && (own_from + own_to).abs() < lean;
-            let height = 0.5 * length * sine / (1.0 + (1.0 - sine * sine).sqrt());
-            if stands_off { from.signum() * height } else { 0.0 }
+            if stands_off { from.signum() * arc_height(length, sine) } else { 0.0 }
         };
         let of = |f: usize| {
             let (rest, count, mut heights) = (placed(f), whole.faces[f].corners(), [0.0; CORNERS]);

@@ -143,13 +143,13 @@ impl PatchInPlace<'_> {
     /// How far the smooth surfaces that faces of first degree stand for rise above both of these, with the slopes along the coordinates of the
     /// face and of what it sees. Of a polygon in place of a circle, which stands off by the height of its chords, bodies that fit would be
     /// told apart by that.
-    pub fn rise(&self, xi: [f64; 2], sight: &Sight) -> (f64, [f64; 2], [f64; 2]) {
+    pub fn rise(&self, xi: [f64; 2], sight: &Sight) -> (f64, [[f64; 2]; 2]) {
         let (own, slopes) = self.surface.rise(self.patch.face, xi);
         let (seen, others) = match (sight, &self.seen) {
             (Sight::Face(hit), Some((faces, _))) => faces.surface.rise(self.patch.target, hit.s),
             _ => (0.0, [0.0; 2]),
         };
-        (own + seen, slopes, others)
+        (own + seen, [slopes, others])
     }
 
     /// The weight of a place by whether it looks at what it sees, and its slope along the cosine.
@@ -163,20 +163,20 @@ impl PatchInPlace<'_> {
         }
     }
 
-    /// Derivatives of a point along an unknown: `frame` is its place with its weight by what it looks at, `density` the undeformed
-    /// area density with its slopes.
+    /// Derivatives of a point along an unknown: `frame` is its place with its weight by what it looks at, then the slopes of
+    /// what the smooth surfaces rise above both sides, `density` the undeformed area density with its slopes.
     pub fn rates(
         &self,
         point: &PatchPoint,
         column: &PointColumn,
         (spot, frame, facing): (&FaceSpot, &FaceFrame, [f64; 2]),
+        [slopes, others]: [[f64; 2]; 2],
         density: &Density,
         (bounds, turning): (&BoundRates, &[Vec3; CORNERS]),
     ) -> PointRates {
         let (xi, (dxi, darea)) = (spot.xi, self.spot_rates(spot, column, bounds));
         let dx = self.moved(column, &point.shape) + frame.tangents[0] * dxi[0] + frame.tangents[1] * dxi[1];
         let (mut gap, n, s, y) = self.sight_rates(point, column, (frame, dx, dxi), turning);
-        let (_, slopes, others) = self.rise(xi, &point.sight);
         gap -= (0..2).map(|k| slopes[k] * dxi[k] + others[k] * s[k]).sum::<f64>();
         let mut dfacing = 0.0;
         if facing[1] != 0.0 {

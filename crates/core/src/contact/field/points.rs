@@ -149,8 +149,16 @@ impl PatchPoints {
                 surface.density(face, &rest, spot.xi)
             };
             let facing = in_place.facing(point.xi, point.n);
+            let (_, rises) = in_place.rise(point.xi, &point.sight);
             for (column, (bounds, turning)) in columns.iter().zip(bounds.iter().zip(&turning)) {
-                self.rates.push(in_place.rates(point, column, (spot, &frame, facing), &density, (bounds, turning)));
+                self.rates.push(in_place.rates(
+                    point,
+                    column,
+                    (spot, &frame, facing),
+                    rises,
+                    &density,
+                    (bounds, turning),
+                ));
             }
         }
     }

@@ -180,6 +180,72 @@ fn facets_of_rings_bear_the_pressure_of_their_circles() {
     }
 }
 
+/// Three to five edges of second degree on a quarter, whose parabolas are up to a tenth of the interference off their circles.
+#[test]
+fn coarse_edges_of_second_degree_bear_as_their_circles() {
+    for cell in ["quad8", "tri6", "quad9"] {
+        for [i, o] in [[3, 4], [4, 3], [3, 3], [5, 4]] {
+            let annuli = annuli(cell, 20.015).replace("[3, 20]", &format!("[3, {i}]"));
+            let model = made(&rings(&annuli.replace("[3, 26]", &format!("[3, {o}]")), ""), &[]).model;
+            let [mean, off] = errors(&model);
+            assert!(mean.abs() < 0.01 && off < 0.16, "{cell} {i} {o}: {mean} {off}");
+        }
+    }
+}
+
+/// A sheet that is clamped at the lowest place of a drum and bent away from it by a roller that goes round does not touch the drum: the chord beside the clamp would.
+#[test]
+fn chords_of_a_sheet_that_bends_are_those_of_its_arc() {
+    let deck = "version = 1
+        space = \"plane-strain\"
+        mesh.part.s.rectangle = { from = [0.0, 0.0], to = [40.0, 0.5], cells = [40, 1], cell = \"quad4\" }
+        material.m.elastic = { young = 1e4, poisson = 0.3 }
+        body.s.material = \"m\"
+        tool.drum.profile = [{ arc = [[0.0, 16.5], [-8.0, 8.5], [0.0, 0.5]] }, { arc = [[0.0, 0.5], [8.0, 8.5], [0.0, 16.5]] }]
+        tool.roll.profile = [{ arc = [[14.0, -4.0], [12.0, -2.0], [10.0, -4.0]] }, { arc = [[10.0, -4.0], [12.0, -6.0], [14.0, -4.0]] }]
+        tool.roll.reference = [0.0, 8.5]
+        contact.d = { surface = \"s.top\", target = \"drum\", law.frictionless = {} }
+        contact.r = { surface = \"s.bottom\", target = \"roll\", law.frictionless = {} }
+        [[step]]
+        displacement.\"s.left\" = { x = 0.0, y = 0.0 }
+        motion.roll = { y = 1.9, rotation = 0.0 }
+        [[step]]
+        motion.roll = { y = 1.9, rotation = 120.0 }";
+    let made = made(deck, &[]);
+    let columns = columns(&made.model, &run(&made.model));
+    let forces = &columns["contact.d.thrust"];
+    // The first increments that bend it know nothing of what it will be.
+    let late = &forces[forces.len() * 2 / 3..];
+    assert!(late.iter().all(|force| force.abs() < 0.1), "{late:?}");
+}
+
+/// Blocks of which the upper one ends a little beyond a row of nodes of the lower, which carries: the pressure beyond is not what the field goes on to.
+#[test]
+fn nodes_beyond_what_touches_have_its_pressure() {
+    for cell in ["hex8", "hex20"] {
+        for width in [2.02, 2.1, 2.4] {
+            let deck = format!(
+                "version = 1
+                space = \"solid\"
+                mesh.part.l.box = {{ from = [0.0, 0.0, 0.0], to = [4.0, 1.0, 1.0], cells = [4, 1, 1], cell = \"{cell}\" }}
+                mesh.part.u.box = {{ from = [0.0, 0.0, 1.0], to = [{width}, 1.0, 2.0], cells = [3, 1, 1], cell = \"{cell}\" }}
+                material.m.elastic = {{ young = 1e3, poisson = 0.3 }}
+                body.l.material = \"m\"
+                body.u.material = \"m\"
+                contact.c = {{ surface = \"l.front\", target = \"u.back\", law.frictionless = {{}}, roles = \"given\" }}
+                [[step]]
+                symmetry = [\"l.back\", \"l.left\", \"u.left\", \"l.bottom\", \"l.top\", \"u.bottom\", \"u.top\"]
+                pressure.\"u.front\" = {{ value = 1.0 }}"
+            );
+            let made = made(&deck, &[]);
+            let columns = columns(&made.model, &run(&made.model));
+            let [most, thrust] =
+                ["max_pressure", "thrust"].map(|name| *columns[&format!("contact.c.{name}")].last().unwrap());
+            assert!(most < 1.7 && (thrust / width - 1.0).abs() < 1e-2, "{cell} {width}: {most} {thrust}");
+        }
+    }
+}
+
 /// A disc of facets on a flat tool bears what its circle would, and a ring of them in a round bore that it grows into.
 #[test]
 fn facets_on_a_tool_bear_as_their_circle() {

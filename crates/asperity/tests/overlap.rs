@@ -53,6 +53,18 @@ fn an_overlap_is_removed_over_the_first_step() {
     }
 }
 
+/// A block that reaches in by a third of its height is squeezed as one that the plate is pressed into.
+#[test]
+fn a_deep_overlap_is_removed() {
+    let force = |deck: String| {
+        let model = model(&deck, &[]);
+        *columns(&model, &run(&model))["contact.base.force.y"].last().unwrap()
+    };
+    let pressed = format!("{}motion.plate = {{ y = 0.6 }}", BLOCK.replace("0.05", "0.0"));
+    let [ramped, pressed] = [BLOCK.replace("0.05", "0.6"), pressed].map(force);
+    assert!((ramped / pressed - 1.0).abs() < 0.01, "{ramped} {pressed}");
+}
+
 #[test]
 fn nodes_are_moved_without_strain() {
     let (model, _, columns) = ran(&["contact.base.overlap=adjust"]);

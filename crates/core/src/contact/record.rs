@@ -200,6 +200,13 @@ pub struct ContactRecord {
 }
 
 impl ContactRecord {
+    /// Has it stand for this many times the area, under as much less of its stress.
+    pub(super) fn spread(&mut self, times: f64) {
+        self.area *= times;
+        let densities = [&mut self.pressure, &mut self.shear, &mut self.last_dissipated];
+        densities.into_iter().for_each(|density| *density /= times);
+    }
+
     /// What the history of a point says, at no place yet.
     pub(super) fn of(values: &[f64], plane: bool) -> Self {
         // In the plane with their signs, in space their sizes.

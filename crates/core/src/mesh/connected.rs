@@ -1,7 +1,8 @@
 //! Cells that hang together.
 
-use super::Mesh;
+use super::{Mesh, Side};
 use crate::tensor::DisjointSets;
+use std::collections::BTreeSet;
 
 impl Mesh {
     /// For each cell the number of the connected whole that it belongs to: cells that share a node, whatever groups they
@@ -28,6 +29,13 @@ impl Mesh {
             number[first]
         };
         cells.iter().map(&mut of).collect()
+    }
+    /// Those of some cells that hang together with the cells behind some sides.
+    pub fn cells_behind(&self, sides: &[Side], cells: impl Iterator<Item = usize>) -> Vec<usize> {
+        let wholes = self.wholes();
+        let behind: BTreeSet<usize> = sides.iter().map(|side| wholes[side.cell]).collect();
+        let cells: BTreeSet<usize> = cells.filter(|&cell| behind.contains(&wholes[cell])).collect();
+        cells.into_iter().collect()
     }
 }
 

@@ -7,7 +7,7 @@
 
 use super::raise::{Ends, ends};
 use super::{CellView, Mesh, Side};
-use crate::tensor::Vec3;
+use crate::tensor::{DisjointSets, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Sides of the boundary that meet at a larger angle, in radians, form a crease.
@@ -60,6 +60,10 @@ struct Corner {
     times: BTreeMap<usize, usize>,
     /// Whether the piece ends here at right angles to planes, as at planes of symmetry, and the normal is in them.
     is_mirrored: bool,
+    /// Whether all of the piece is in one plane, not only what of it is around the corner.
+    lies_in_plane: bool,
+    /// Whether a curve of the plane leaves here what is flat: its normal is that of the flat, and the circle through the corners beside it tells nothing.
+    leaves_flat: bool,
 }
 
 impl Corner {
@@ -74,6 +78,15 @@ impl Corner {
     fn is_inside(&self, plane: bool) -> bool {
         if plane { self.sides.len() == 2 } else { self.times.values().all(|&times| times == 2) }
     }
+    /// Its edges that end the piece in a plane with a normal, if they are two.
+    fn rim(&self, across: Vec3) -> [Option<Vec3>; 2] {
+        let once = |edge: &&Vec3| self.edges.iter().filter(|other| other == edge).count() == 1;
+        let within = |edge: &&Vec3| edge.dot(across).abs() < FLAT * edge.norm();
+        let mut rim = self.edges.iter().filter(once).filter(within);
+        let ends = [rim.next().copied(), rim.next().copied()];
+        if rim.next().is_some() { [None; 2] } else { ends }
+    }
+
     /// Whether its piece says how an edge that leaves it curves.
     fn says(&self, edge: Vec3) -> bool {
         if self.is_mirrored {
@@ -128,6 +141,7 @@ impl Boundary {
             own.iter().enumerate().for_each(|(corner, &node)| around.entry(node).or_default().push((side, corner)));
         }
         let mut boundary = Self { plane, corners: Vec::new(), sides: Vec::new(), normals };
+        let flat = boundary.in_planes(&nodes, &around);
         let mut places: Vec<Vec<(usize, usize)>> =
             nodes.iter().map(|own| own.iter().map(|&node| (node, 0)).collect()).collect();
         for around in around.values() {
@@ -146,12 +160,41 @@ impl Boundary {
                     places[side][corner].1 = boundary.corners.len();
                 }
                 let corner = boundary.corner(mesh, &nodes, &piece);
-                boundary.corners.push(corner);
+                boundary.corners.push(Corner { lies_in_plane: flat[one.0], ..corner });
             }
             mirror(&mut boundary.corners[first..], plane);
         }
         boundary.sides = places;
+        boundary.find_flats();
         boundary
+    }
+
+    /// Finds the corners of the plane beside which one side goes on flat and the other does not.
+    fn find_flats(&mut self) {
+        let mut beside = vec![Vec::new(); self.corners.len()];
+        for side in self.sides.iter().filter(|_| self.plane) {
+            for (&(_, own), &(_, other)) in side.iter().zip(side.iter().rev()) {
+                beside[own].push(self.corners[other].sides.len() == 2 && self.corners[other].is_flat());
+            }
+        }
+        for (corner, beside) in self.corners.iter_mut().zip(beside) {
+            corner.leaves_flat = matches!(beside[..], [one, other] if one != other) && !corner.is_flat();
+        }
+    }
+
+    /// For each side whether all of its smooth piece is in one plane.
+    fn in_planes(&self, nodes: &[Vec<usize>], around: &BTreeMap<usize, Vec<(usize, usize)>>) -> Vec<bool> {
+        let mut pieces = DisjointSets::new(nodes.len());
+        let pairs =
+            around.values().flat_map(|all| all.iter().flat_map(|&(f, _)| all.iter().map(move |&(g, _)| [f, g])));
+        pairs.filter(|&[f, g]| f < g && self.joins(nodes, [f, g])).for_each(|[f, g]| pieces.join(f, g));
+        let labels = pieces.labels();
+        let mut first: BTreeMap<usize, (Vec3, bool)> = BTreeMap::new();
+        for (side, normal) in self.normals.iter().enumerate() {
+            let (one, flat) = first.entry(labels[side]).or_insert((*normal, true));
+            *flat &= (*normal - *one).norm() < FLAT;
+        }
+        labels.iter().map(|label| first[label].1).collect()
     }
 
     /// Whether two sides around a corner meet without a crease.
@@ -185,7 +228,7 @@ impl Boundary {
         let corners = [(&self.corners[one], edge), (&self.corners[other], -edge)];
         let mean = corners[0].0.normal.unit() + corners[1].0.normal.unit();
         let normal = (mean - edge * (mean.dot(edge) / edge.dot(edge))).unit();
-        let said = |(corner, edge): &(&Corner, Vec3)| corner.says(*edge);
+        let said = |(corner, edge): &(&Corner, Vec3)| corner.says(*edge) && !corner.leaves_flat;
         let (inside, border): (Vec<_>, Vec<_>) =
             corners.into_iter().filter(said).partition(|(corner, _)| corner.is_inside(self.plane));
         let by = if inside.is_empty() {
@@ -278,11 +321,20 @@ fn mean_arc(corners: &[(&Corner, Vec3)]) -> Option<Vec3> {
 /// Puts the normals of pieces that end at a node into the planes across which they end there.
 fn mirror(corners: &mut [Corner], plane: bool) {
     let flat: Vec<Option<Vec3>> = corners.iter().map(|corner| corner.is_flat().then(|| corner.sides[0])).collect();
-    for (own, corner) in corners.iter_mut().enumerate().filter(|(_, corner)| !corner.is_inside(plane)) {
+    let ends = |(_, corner): &(usize, &mut Corner)| !corner.is_inside(plane) && !corner.lies_in_plane;
+    for (own, corner) in corners.iter_mut().enumerate().filter(ends) {
         for across in flat.iter().enumerate().filter_map(|(other, normal)| normal.filter(|_| other != own)) {
             if corner.sides.iter().all(|side| side.dot(across).abs() < ACROSS) {
                 corner.normal -= across * corner.normal.dot(across);
                 corner.is_mirrored = true;
+                // Along the rim a circle goes through the node and those beside it, however many sides are on either.
+                if let [Some(one), Some(other)] = corner.rim(across) {
+                    let of = |edge: Vec3| {
+                        let n = edge.cross(across);
+                        n * (corner.normal.dot(n).signum() / edge.dot(edge))
+                    };
+                    corner.normal = of(one) + of(other);
+                }
             }
         }
     }
@@ -359,6 +411,21 @@ mod tests {
                 let plane = |&node: &usize| (mesh.points[node][axis] - value).abs() < 1e-14;
                 assert!(mesh.groups[group].nodes.iter().all(plane), "{cell} {group}");
             }
+        }
+    }
+
+    /// A sector of a thick ball, of two cells along its edges: the planes that bound it stay plane, although each of their corners is at right angles to what is
+    /// nearly plane of the sphere.
+    #[test]
+    fn planes_that_bound_a_ball_stay_plane() {
+        let mut mesh = Block::new([0.0; 3], [1.0; 3], [1, 2, 2], Cell::named("tet4").unwrap()).mesh("b").unwrap();
+        for x in &mut mesh.points {
+            let [a, b] = [x[1], x[2]].map(|part| (45.0_f64.to_radians() * part).tan());
+            *x = Vec3::new(a, -1.0, b).unit() * (2.0 + 6.0 * x[0]);
+        }
+        let mesh = raised(mesh);
+        for (group, axis) in [("b.bottom", 0), ("b.back", 2)] {
+            assert!(mesh.groups[group].nodes.iter().all(|&node| mesh.points[node][axis].abs() < 1e-14), "{group}");
         }
     }
 

@@ -9,7 +9,7 @@ use crate::system::Dofs;
 use crate::tensor::Tensor2;
 use crate::tool::ProfileTool;
 use crate::tool::space::SpaceTool;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Elastic slip under the friction that the pressure allows, over the length of an edge or face, where nothing is said.
@@ -91,10 +91,7 @@ fn held(mesh: &Mesh, wholes: &[usize], holds: impl IntoIterator<Item = (String, 
 
 /// The whole outer boundary of those of the cells that hang together with the cells behind the sides.
 pub fn boundary_behind(mesh: &Mesh, sides: &[Side], cells: impl Iterator<Item = usize>) -> Vec<Side> {
-    let wholes = mesh.wholes();
-    let behind: BTreeSet<usize> = sides.iter().map(|side| wholes[side.cell]).collect();
-    let cells: BTreeSet<usize> = cells.filter(|&cell| behind.contains(&wholes[cell])).collect();
-    mesh.boundary(&cells.into_iter().collect::<Vec<_>>())
+    mesh.boundary(&mesh.cells_behind(sides, cells))
 }
 
 /// Sides whose faces differ in size by less than this factor are alike.

@@ -5,7 +5,7 @@ use super::contacts::{Opposite, Tools, backings, boundary_behind};
 use crate::keys::{self, ContactForm, Roles};
 use crate::reader::Name;
 use crate::source::Place;
-use asperity_core::contact::field::{FieldContact, FieldRoles, FieldSurface};
+use asperity_core::contact::field::{FieldContact, FieldRoles, FieldSurface, HeldNodes};
 use asperity_core::contact::{Backing, ContactParts};
 use asperity_core::model::FieldSides;
 use asperity_core::solid::Body;
@@ -69,7 +69,11 @@ impl Builder<'_> {
                 FieldSides::new([surface, others], may_swap, (&mesh, space, self.site.thickness), backings)
             }
         };
-        let held: Vec<_> = self.planes(&mesh).into_iter().map(|(nodes, _)| nodes.into_iter().collect()).collect();
+        let held = self.planes(&mesh).into_iter().map(|plane| HeldNodes {
+            nodes: plane.nodes.into_iter().collect(),
+            normal: Some(plane.normal).filter(|_| plane.stays),
+        });
+        let held: Vec<HeldNodes> = held.collect();
         let carrier = FieldSurface::held(&mesh, sides, (space, self.site.thickness), &held);
         let pieces = target.as_tool().map_or(1, |rigid| rigid.pieces());
         if carrier.nodes.len().saturating_mul(pieces) > MOST {

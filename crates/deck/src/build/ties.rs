@@ -16,6 +16,19 @@ const BARE: f64 = 0.1;
 /// A warning says where the faces of what follows are longer by so much.
 const COARSE: f64 = 2.0;
 
+/// Components of a normal below which it has none.
+const PARALLEL: f64 = 1e-9;
+
+/// A flat group that a step holds or moves.
+pub(super) struct HeldPlane {
+    /// Its nodes, ascending.
+    pub nodes: Vec<usize>,
+    /// Its normal.
+    pub normal: Vec3,
+    /// Whether the motion along that is prescribed.
+    pub stays: bool,
+}
+
 /// A tie and where the deck says it.
 pub(super) struct Glued {
     /// What was found.
@@ -143,7 +156,7 @@ impl Builder<'_> {
         let planes = self.planes(&mesh);
         for (node, to) in tie.fitted(&mesh.points) {
             let mut by = to - mesh.points[node];
-            for (_, normal) in planes.iter().filter(|(nodes, _)| nodes.binary_search(&node).is_ok()) {
+            for HeldPlane { normal, .. } in planes.iter().filter(|plane| plane.nodes.binary_search(&node).is_ok()) {
                 by = by - *normal * normal.dot(by);
             }
             if by.norm() > least {
@@ -153,15 +166,28 @@ impl Builder<'_> {
         self.site.mesh = Arc::new(mesh);
     }
 
-    /// Nodes and normals of the flat groups that a step holds or moves, and of the axis of revolution.
-    pub(super) fn planes(&self, mesh: &Mesh) -> Vec<(Vec<usize>, Vec3)> {
-        let steps = self.deck.step.iter();
-        let names = steps.flat_map(|step| step.displacement.iter().map(|(name, _)| name).chain(&step.symmetry));
-        let plane = |name: &crate::reader::Name| {
+    /// The flat groups that a step holds or moves, and the axis of revolution.
+    pub(super) fn planes(&self, mesh: &Mesh) -> Vec<HeldPlane> {
+        let moved = self.deck.step.iter().flat_map(|step| &step.displacement);
+        let mirrors = self.deck.step.iter().flat_map(|step| &step.symmetry);
+        let names = moved.map(|(name, by)| (name, Some(by))).chain(mirrors.map(|name| (name, None)));
+        let plane = |(name, by): (&crate::reader::Name, Option<&keys::Displacement>)| {
             let group = mesh.groups.get(&name.text).filter(|group| !group.sides.is_empty())?;
-            Some((group.nodes.clone(), Vec3(flat_normal(mesh, &group.sides)?)))
+            let normal = Vec3(flat_normal(mesh, &group.sides)?);
+            let given = |by: &keys::Displacement| match &by.along {
+                Some(along) => {
+                    let way = Vec3(std::array::from_fn(|axis| along.value.get(axis).copied().unwrap_or_default()));
+                    way.unit().cross(normal).norm() < PARALLEL
+                }
+                None => {
+                    let given = [by.x.is_some(), by.y.is_some(), by.z.is_some()];
+                    (0..3).all(|axis| given[axis] || normal[axis].abs() < PARALLEL)
+                }
+            };
+            Some(HeldPlane { nodes: group.nodes.clone(), normal, stays: by.is_none_or(given) })
         };
-        let axis = (super::supports::on_axis(mesh, self.site.space), Vec3::new(1.0, 0.0, 0.0));
+        let nodes = super::supports::on_axis(mesh, self.site.space);
+        let axis = HeldPlane { nodes, normal: Vec3::axis(0), stays: false };
         names.filter_map(plane).chain([axis]).collect()
     }
 }

@@ -62,6 +62,8 @@ pub struct FieldAttempt<'a> {
     pub ahead: Vec<f64>,
     /// How much nearer the target lies than in the mean, slot by slot.
     pub nearer: Vec<Nearer>,
+    /// How much deeper closed nodes lie by the arcs of the accepted state than by those of the one before it, slot by slot; none over flat faces.
+    pub redrawn: Vec<f64>,
     /// Closure and slips that multipliers stand for, slot by slot.
     pub shifts: Vec<[f64; COUNT]>,
     /// How often they were improved in the attempt,
@@ -97,8 +99,13 @@ pub struct FieldAttempt<'a> {
 }
 
 impl FieldAttempt<'_> {
+    /// The configuration at unknowns `u`, with the arcs of the accepted one.
+    fn in_place(&self, u: &[f64]) -> Configuration<'_> {
+        Configuration::with(self.contact, u, self.before.arcs.clone())
+    }
+
     fn search(&self, u: &[f64]) -> FieldSearch {
-        let now = Configuration { duals: &self.duals, ..Configuration::new(self.contact, u) };
+        let now = Configuration { duals: &self.duals, ..self.in_place(u) };
         let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
         let list_touched =
             |now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>| self.list_touched(now, patch, nodes);
@@ -439,7 +446,8 @@ impl FieldAttempt<'_> {
             local.energies.across = across(new, self.gap_before(slot));
         }
         let pressure = 0.5 * (old[entry::PRESSURE] + new[entry::PRESSURE]);
-        local.energies.supplied += sums.area * stretch * pressure * (new[entry::NEARER] - old[entry::NEARER]);
+        let nearer = new[entry::NEARER] - old[entry::NEARER] + self.redrawn.get(slot).copied().unwrap_or_default();
+        local.energies.supplied += sums.area * stretch * pressure * nearer;
         Ok(response.status as Branch)
     }
 
@@ -552,8 +560,11 @@ impl FieldAttempt<'_> {
     fn refuse_leap(&self, slot: usize, (stencil, sums): (&StencilInPlace, &NodeSums)) -> Result<(), Failure> {
         let contact = self.contact;
         let depth = stencil.faces().map(|face| self.depths[face]).fold(f64::INFINITY, f64::min);
-        if self.history.slot(slot)[entry::STATUS] == 0.0 {
-            refuse_jump(sums.y[0], depth, || contact.name_of(slot))?;
+        let old = self.history.slot(slot);
+        if old[entry::STATUS] == 0.0 {
+            // Overlap that is yet to be removed lay there before.
+            let lay = if old[entry::SEGMENT] >= 0.0 { old[entry::PENETRATION].max(0.0) } else { 0.0 };
+            refuse_jump(sums.y[0] - lay, depth, || contact.name_of(slot))?;
         }
         let Some(rigid) = contact.parts.target.as_tool() else { return Ok(()) };
         rigid.refuse_turn(stencil.at.motion(), self.accepted, || contact.name_of(slot))
@@ -783,7 +794,7 @@ impl FieldAttempt<'_> {
     fn refuse_passage(&self, u: &[f64], new: &History) -> Result<(), Failure> {
         let bears = |number: usize| self.contact.bears(number, new);
         if !self.contact.corners.is_empty()
-            && let Some(number) = Configuration::new(self.contact, u).unseen_corner(&self.before, bears)
+            && let Some(number) = self.in_place(u).unseen_corner(&self.before, bears)
         {
             let name = self.contact.name_of(self.contact.nodal_slots() + WAYS * number);
             return Err(Failure::new(format!("{name} came to lie in the other body unseen")).of(FailureKind::Passage));
@@ -836,7 +847,7 @@ impl FieldAttempt<'_> {
             return false;
         }
         let mut changed = false;
-        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]), |_| None);
+        let found = self.in_place(u).tips(self.contact.longest, Some(&[]), |_| None);
         for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
             if let (Some(had), Some(share)) = (share(before), share(now))
                 && share < CHANGED * had

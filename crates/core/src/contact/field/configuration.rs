@@ -1,5 +1,6 @@
 //! Both sides of a contact in place, and which part of a face sees which part of the target.
 
+use super::arc::Arcs;
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, over_piece};
 use super::dual::BLENDED;
@@ -12,6 +13,7 @@ use super::tool::ToolInPlace;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
 use crate::tensor::{BoundingBox, Vec3};
+use std::sync::Arc;
 
 /// Both sides of a contact at given unknowns.
 pub struct Configuration<'a> {
@@ -21,6 +23,8 @@ pub struct Configuration<'a> {
     pub placed: Vec<PlacedFace>,
     /// Outward unit normals at the nodes of the field; none where nothing asks for them.
     pub normals: Vec<Vec3>,
+    /// How far the smooth surfaces that faces of both sides stand for rise above them.
+    pub arcs: Arc<Arcs>,
     /// Largest shares of dual functions at each node; none known are one.
     pub duals: &'a [[f64; 2]],
     /// The target.
@@ -48,11 +52,21 @@ impl FieldTarget {
 impl<'a> Configuration<'a> {
     /// At unknowns `u`.
     pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
+        Self::with(contact, u, Arc::new(contact.arcs(u)))
+    }
+
+    /// The same with the arcs of another state.
+    pub fn with(contact: &'a FieldContact, u: &[f64], arcs: Arc<Arcs>) -> Self {
         let (surface, site) = (contact.surface(), contact.site());
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
-        Self { contact, placed, normals, duals: &[], target: contact.parts.target.at(site, u) }
+        Self { contact, placed, normals, arcs, duals: &[], target: contact.parts.target.at(site, u) }
+    }
+
+    /// How far the smooth surface that a face of the target stands for rises above it at a place.
+    pub(super) fn seen_rise(&self, face: usize, s: [f64; 2]) -> f64 {
+        self.contact.parts.target.as_faces().map_or(0.0, |faces| faces.surface.rise(face, &self.arcs.seen, s).0)
     }
 
     /// A face of the surface.

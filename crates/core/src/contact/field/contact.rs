@@ -1,8 +1,9 @@
 //! What a field is made of: its surface, what that may touch, the law and how it is computed.
 
+use super::arc::{Arcs, Chords};
 use super::corners::{BodyCorner, WAYS};
 use super::cover::{FEET, Patch};
-use super::face::FieldFace;
+use super::face::{FieldFace, moved};
 use super::faces::TargetFaces;
 use super::surface::{BodyEdge, FieldNode, FieldSurface};
 use super::tool::RigidTool;
@@ -72,6 +73,10 @@ pub struct FieldContact {
     pub(super) edges: Vec<BodyEdge>,
     /// and convex corners of both sides.
     pub(super) corners: Vec<BodyCorner>,
+    /// Chords of its surface,
+    pub(super) chords: Chords,
+    /// and of the bodies that are its target.
+    seen_chords: Chords,
     /// Nodes of both sides all of whose displacements are prescribed, step by step.
     pub(super) held: Vec<BTreeSet<usize>>,
     sizes: Vec<f64>,
@@ -116,7 +121,22 @@ impl FieldContact {
                 corners.extend(BodyCorner::all(&faces.surface, mesh, false, own));
             }
         }
-        Self { sides, roles, pieces, edges, corners, held: Vec::new(), sizes, areas }
+        let chords = Chords::of(surface, mesh);
+        let mirrors = chords.mirrors(surface, mesh);
+        surface.nodes.iter_mut().zip(mirrors).for_each(|(node, mirrors)| node.mirrors = mirrors);
+        let seen_chords = target.as_faces().map(|faces| Chords::of(&faces.surface, mesh)).unwrap_or_default();
+        Self { sides, roles, pieces, edges, corners, chords, seen_chords, held: Vec::new(), sizes, areas }
+    }
+
+    /// How far the smooth surfaces that faces of both sides stand for rise above them at unknowns `u`.
+    pub(super) fn arcs(&self, u: &[f64]) -> Arcs {
+        let position = |node: usize| moved(self.parts.mesh.points[node], &u[self.parts.dofs.displacements(node)]);
+        Arcs { own: self.chords.heights(&position), seen: self.seen_chords.heights(&position) }
+    }
+
+    /// Whether these have changed as both sides moved.
+    pub(super) fn redraws(&self, arcs: &Arcs) -> bool {
+        self.chords.have_changed(&arcs.own) || self.seen_chords.have_changed(&arcs.seen)
     }
 
     /// Tells it which unknowns the steps prescribe.

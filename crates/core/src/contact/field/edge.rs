@@ -196,7 +196,7 @@ impl NodesInPlace<'_> {
             functions: ShapeFunctions::constant(1.0),
             dual: ShapeFunctions::constant(0.0),
             shape,
-            gap: to.dot(n) - self.contact.parts.surface.rise(patch.face, xi).0,
+            gap: to.dot(n) - self.contact.parts.surface.rise(patch.face, &self.arcs.own, xi).0,
             bulge: 0.0,
             n,
             v: touched.map_or(Vec3::zero(), |touched| touched.tip - touched.now),
@@ -219,7 +219,7 @@ impl NodesInPlace<'_> {
             return;
         };
         let FacePlace { shape, tangents: [a, b], bends: [aa, ab, bb], n, to, .. } = &place;
-        let (_, slopes) = self.contact.parts.surface.rise(patch.face, place.xi);
+        let (_, slopes) = self.contact.parts.surface.rise(patch.face, &self.arcs.own, place.xi);
         for column in columns {
             let (mut apart, spin) = tool_motion(tool, column, line.c);
             let (carried, mut turned) = (apart, [Vec3::zero(); 2]);

@@ -193,11 +193,6 @@ fn bounds(placed: &PlacedFace) -> BoundingBox {
 }
 
 impl FacesInPlace<'_> {
-    /// How far the smooth surface that a face stands for rises above it at a place.
-    pub fn rise(&self, face: usize, s: [f64; 2]) -> f64 {
-        self.faces.surface.rise(face, s).0
-    }
-
     /// The corners of a face.
     pub fn corners(&self, number: usize) -> &[Vec3] {
         &self.placed[number].nodes()[..self.faces.surface.faces[number].corners()]

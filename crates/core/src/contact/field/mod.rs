@@ -57,7 +57,7 @@ mod triad;
 mod twist;
 
 pub use contact::{FieldContact, FieldRoles, FieldTarget};
-pub use surface::FieldSurface;
+pub use surface::{FieldSurface, HeldNodes};
 pub use tie::{Apart, MeanCondition, TieParts, TiedSurfaces};
 
 #[cfg(test)]

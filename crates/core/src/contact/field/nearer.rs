@@ -162,7 +162,7 @@ impl Configuration<'_> {
     ) -> Option<PlaceGap> {
         let at = face.at(xi);
         let (x, n) = (at.x, at.normal.unit());
-        let rise = self.contact.parts.surface.rise(number, xi).0;
+        let rise = self.contact.parts.surface.rise(number, &self.arcs.own, xi).0;
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let foot = tool.closest(piece, x);
@@ -181,7 +181,7 @@ impl Configuration<'_> {
                     faces_it && together(other) && self.contact.may_touch(number, other)
                 };
                 let (other, hit) = faces.nearest(&ray, range, admits)?;
-                let gap = hit.gap - rise - faces.rise(other, hit.s);
+                let gap = hit.gap - rise - self.seen_rise(other, hit.s);
                 Some(PlaceGap { x, n, gap, nearest: self.contact.piece_of(other) == piece })
             }
         }

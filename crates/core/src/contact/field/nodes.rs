@@ -1,5 +1,6 @@
 //! Nodes of the mesh and a tool in place: what the points of a patch, and the stencil of a node of the field, depend on.
 
+use super::arc::Arcs;
 use super::column::PointColumn;
 use super::contact::FieldContact;
 use super::cover::Patch;
@@ -16,6 +17,8 @@ pub struct NodesInPlace<'a> {
     pub nodes: &'a [usize],
     /// Values of their unknowns, then those of the tool.
     pub u: &'a [f64],
+    /// How far the smooth surfaces that faces of both sides stand for rise above them.
+    pub arcs: &'a Arcs,
     /// The tool where these put it.
     pub tool: Option<ToolInPlace<'a>>,
 }

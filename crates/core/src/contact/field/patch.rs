@@ -1,5 +1,6 @@
 //! A patch in place: where its interval lies, and how that moves with its unknowns.
 
+use super::arc::Arcs;
 use super::column::{PointColumn, tool_motion};
 use super::contact::FieldTarget;
 use super::cover::{FaceFrame, FaceInPlace, Patch, root_near};
@@ -16,6 +17,8 @@ use crate::tool::NearestPoint;
 pub struct PatchInPlace<'a> {
     /// The surface,
     pub surface: &'a FieldSurface,
+    /// how far the smooth surfaces that faces of both sides stand for rise above them,
+    pub arcs: &'a Arcs,
     /// and its face there.
     pub face: FaceInPlace<'a>,
     /// The averaged normals at the corners.
@@ -62,6 +65,7 @@ impl<'a> PatchInPlace<'a> {
         };
         let mut patch = Self {
             surface,
+            arcs: at.arcs,
             face,
             normals,
             tool,

@@ -144,9 +144,9 @@ impl PatchInPlace<'_> {
     /// face and of what it sees. Of a polygon in place of a circle, which stands off by the height of its chords, bodies that fit would be
     /// told apart by that.
     pub fn rise(&self, xi: [f64; 2], sight: &Sight) -> (f64, [[f64; 2]; 2]) {
-        let (own, slopes) = self.surface.rise(self.patch.face, xi);
+        let (own, slopes) = self.surface.rise(self.patch.face, &self.arcs.own, xi);
         let (seen, others) = match (sight, &self.seen) {
-            (Sight::Face(hit), Some((faces, _))) => faces.surface.rise(self.patch.target, hit.s),
+            (Sight::Face(hit), Some((faces, _))) => faces.surface.rise(self.patch.target, &self.arcs.seen, hit.s),
             _ => (0.0, [0.0; 2]),
         };
         (own + seen, [slopes, others])

@@ -47,7 +47,7 @@ impl FieldContact {
                         let ray = FaceRay { x: at.x, n: at.normal.unit() };
                         let hit = faces.project(patch.target, &ray);
                         let meets = |hit: &FaceProjection| faces.holds(patch.target, hit.s, 1e-6);
-                        let gap = |hit: FaceProjection| hit.gap - faces.rise(patch.target, hit.s);
+                        let gap = |hit: FaceProjection| hit.gap - now.seen_rise(patch.target, hit.s);
                         hit.filter(meets).map(gap).filter(|gap| *gap < -self.least).map(|gap| ray.n * gap)
                     }
                 };
@@ -102,6 +102,13 @@ impl FieldContact {
             record.resultant = Some([force, sums.place]);
             (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), sums.facing());
             record.along = e1.unit();
+            if self.node_of(slot).is_some() && record.pressure > 0.0 {
+                let [mean, own] = stencil.means(sums, |slot| history.slot(slot)[entry::PRESSURE]);
+                // The value at a node that itself sees nothing is that of a field carried on to where there is none.
+                if own < SEEN[usize::from(!self.parts.surface.plane)] && mean < record.pressure {
+                    record.spread(record.pressure / mean.max(SPREAD * record.pressure));
+                }
+            }
             if !self.parts.surface.plane && sheared.norm() > 0.0 {
                 record.along = sheared.unit();
             }
@@ -254,6 +261,11 @@ impl FieldContact {
         most(self.surface()) + self.target().as_faces().map_or(0.0, |faces| most(&faces.surface))
     }
 }
+
+/// Mean of a node's function over what it sees, in the plane and in space, below which it does not lie there itself: half of that over all of its faces.
+const SEEN: [f64; 2] = [1.0 / 3.0, 2.0 / 9.0];
+/// Least part of the pressure of such a node that is that of what it sees.
+const SPREAD: f64 = 1e-6;
 
 /// Nodes from which on their pressures can be told rough.
 const MANY: usize = 5;

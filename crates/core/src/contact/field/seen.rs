@@ -99,7 +99,7 @@ impl FieldContact {
             support.nodes.sort_unstable();
             support.nodes.dedup();
         }
-        let mut found = FieldSearch::new(patches, supports);
+        let mut found = FieldSearch::new(patches, supports, now.arcs.clone());
         for slot in 0..found.supports.len() {
             let mut areas = [0.0; 2];
             for (number, corner) in found.faces(slot) {
@@ -250,6 +250,18 @@ impl FieldContact {
         let nodes = support.nodes.iter().flat_map(|&node| self.parts.dofs.displacements(node));
         let tool = self.parts.target.as_tool().into_iter().flat_map(|rigid| rigid.unknowns());
         nodes.chain(tool).map(|dof| u[dof]).collect()
+    }
+
+    /// How much deeper closed nodes lie in an accepted state by the arcs of that than they did by those that it was found with.
+    pub(super) fn redrawn(&self, u: &[f64], history: &History) -> Vec<f64> {
+        let mut deeper = vec![0.0; self.slots()];
+        self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, _, sums| {
+            let values = history.slot(slot);
+            if values[entry::STATUS] > 0.0 && slot < self.tip_slots().end {
+                deeper[slot] = sums.y[0] - values[entry::PENETRATION];
+            }
+        });
+        deeper
     }
 
     /// Calls `take` with the slots that see something at displacements `u`.

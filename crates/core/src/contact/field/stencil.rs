@@ -154,7 +154,7 @@ impl<'a> StencilInPlace<'a> {
         let motion = nodes.len() * contact.parts.dofs.per_node();
         let tool =
             contact.parts.target.as_tool().filter(|_| motion < u.len()).map(|rigid| rigid.in_place(&u[motion..]));
-        Self { found, slot, at: NodesInPlace { contact, nodes, u, tool } }
+        Self { found, slot, at: NodesInPlace { contact, nodes, u, arcs: &found.arcs, tool } }
     }
 
     /// Whether it sees something.
@@ -209,6 +209,21 @@ impl<'a> StencilInPlace<'a> {
                 },
             )
         })
+    }
+
+    /// The mean of the field with values `pressure` at its slots over what the node sees, and of the node's own function there.
+    pub fn means(&self, sums: &NodeSums, pressure: impl Fn(usize) -> f64) -> [f64; 2] {
+        let (contact, patches) = (self.at.contact, self.patches().collect::<Vec<_>>());
+        let (surface, piece, mut means) = (&contact.parts.surface, self.slot % contact.pieces, [0.0; 2]);
+        for &NodePoint { of: (number, k), weight, .. } in &sums.points {
+            let (patch, corner) = patches[number];
+            let face = &surface.faces[patch.face];
+            let functions = face.corner_functions(sums.patches[number].points[k].xi).n;
+            let corners = surface.field[patch.face][..face.corners()].iter().zip(functions);
+            let here: f64 = corners.map(|(&node, n)| n * pressure(contact.slot(node, piece))).sum();
+            means = [means[0] + weight * here, means[1] + weight * functions[corner]];
+        }
+        means.map(|sum| sum / sums.area)
     }
 
     /// What the tangents of the node follow, in space.

@@ -1,6 +1,8 @@
 //! What a search finds: patches, and which of them each stencil sums.
 
+use super::arc::Arcs;
 use super::cover::Patch;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A patch and the nodes of the mesh on which its points depend, ascending.
@@ -44,14 +46,16 @@ pub struct FieldSearch {
     pub patches: Vec<FoundPatch>,
     /// What each stencil has of them.
     pub supports: Vec<Support>,
+    /// How far the smooth surfaces that faces of both sides stand for rise above them.
+    pub arcs: Arc<Arcs>,
 }
 
 static SEARCHES: AtomicUsize = AtomicUsize::new(1);
 
 impl FieldSearch {
     /// A search that found these.
-    pub fn new(patches: Vec<FoundPatch>, supports: Vec<Support>) -> Self {
-        Self { number: SEARCHES.fetch_add(1, Ordering::Relaxed), patches, supports }
+    pub fn new(patches: Vec<FoundPatch>, supports: Vec<Support>, arcs: Arc<Arcs>) -> Self {
+        Self { number: SEARCHES.fetch_add(1, Ordering::Relaxed), patches, supports, arcs }
     }
 
     /// The faces of the patches of a stencil, each once, with the node's number among their corners; none for a tip or a corner.

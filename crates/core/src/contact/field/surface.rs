@@ -27,8 +27,23 @@ pub struct FieldNode {
     /// an edge. Where it goes on round a crease it does not end: a vertex of a side that slides along another body
     /// would look past that.
     pub is_vertex: bool,
-    /// Whether the surface crosses the axis of revolution here without a crease, so that its normal stays along the axis.
-    pub(super) on_axis: bool,
+    /// Normals of planes of symmetry in which the smooth surface ends here, and its normal therefore lies, at right angles to each other; zero without one. So of the
+    /// axis of revolution where it goes through that without a crease.
+    pub(super) mirrors: [Vec3; 2],
+}
+
+/// Nodes that conditions hold together, and the normal of the plane in which they stay, if they do.
+#[derive(Debug, Clone)]
+pub struct HeldNodes {
+    /// The nodes.
+    pub nodes: BTreeSet<usize>,
+    /// The normal.
+    pub normal: Option<Vec3>,
+}
+
+/// What of a vector lies in planes with these normals, at right angles to each other.
+pub(super) fn mirrored(v: Vec3, mirrors: &[Vec3; 2]) -> Vec3 {
+    mirrors.iter().fold(v, |v, m| v - *m * v.dot(*m))
 }
 
 /// Faces that meet at a larger angle form a crease in the plane where at their other ends they turn by less than this part of it: what goes round
@@ -43,15 +58,13 @@ pub struct NodalNormal {
     pub unit: Vec3,
     /// Length of the sum.
     length: f64,
-    on_axis: bool,
+    mirrors: [Vec3; 2],
 }
 
 impl NodalNormal {
     /// Derivative of the unit normal for a derivative `dm` of the sum.
-    pub fn turned(&self, mut dm: Vec3) -> Vec3 {
-        if self.on_axis {
-            dm[0] = 0.0;
-        }
+    pub fn turned(&self, dm: Vec3) -> Vec3 {
+        let dm = mirrored(dm, &self.mirrors);
         (dm - self.unit * self.unit.dot(dm)) * self.length.recip()
     }
 }
@@ -75,8 +88,6 @@ pub struct FieldSurface {
     pub curved: Vec<bool>,
     /// The largest angle of each face to those beside it of its smooth piece before any motion.
     pub bends: Vec<f64>,
-    /// For each face how far the smooth surface that it stands for rises above the middles of the edges of its side, outward.
-    pub arcs: Vec<Option<[f64; CORNERS]>>,
     /// For each face of any of these what makes the functions of its corners biorthogonal to these.
     pub duals: Vec<Option<DualFactors>>,
     /// Whether faces are edges of a plane model.
@@ -84,6 +95,8 @@ pub struct FieldSurface {
     /// Whether the model is axisymmetric.
     pub revolves: bool,
     pub(super) thickness: f64,
+    /// What conditions hold.
+    pub(super) held: Vec<HeldNodes>,
 }
 
 impl FieldSurface {
@@ -93,8 +106,8 @@ impl FieldSurface {
     }
 
     /// The same where groups of nodes are `held` by conditions: an end of the surface in one of these, as on a plane of symmetry, is no edge
-    /// of a body.
-    pub fn held(mesh: &Mesh, sides: &[Side], (space, thickness): (Space, f64), held: &[BTreeSet<usize>]) -> Self {
+    /// of a body, and where what is round ends in a plane its normal lies in that.
+    pub fn held(mesh: &Mesh, sides: &[Side], (space, thickness): (Space, f64), held: &[HeldNodes]) -> Self {
         let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).pieces());
         Self::of(mesh, faces.collect(), (space, thickness), held)
     }
@@ -105,12 +118,12 @@ impl FieldSurface {
         Self::of(mesh, faces, (space, thickness), &[])
     }
 
-    fn of(mesh: &Mesh, faces: Vec<FieldFace>, (space, thickness): (Space, f64), held: &[BTreeSet<usize>]) -> Self {
+    fn of(mesh: &Mesh, faces: Vec<FieldFace>, (space, thickness): (Space, f64), held: &[HeldNodes]) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
         let mut surface = Self { faces, plane, revolves, thickness, ..Self::default() };
         surface.number(mesh, held);
-        surface.arcs = surface.heights(mesh);
+        surface.held = held.to_vec();
         surface
     }
 
@@ -124,8 +137,8 @@ impl FieldSurface {
     }
 
     /// Finds the smooth pieces and numbers the nodes of the field.
-    pub(super) fn number(&mut self, mesh: &Mesh, held: &[BTreeSet<usize>]) {
-        let is_held = |nodes: &[usize]| held.iter().any(|group| nodes.iter().all(|node| group.contains(node)));
+    pub(super) fn number(&mut self, mesh: &Mesh, held: &[HeldNodes]) {
+        let is_held = |nodes: &[usize]| held.iter().any(|held| nodes.iter().all(|node| held.nodes.contains(node)));
         let axis = 1e-9 * mesh.size();
         let around = self.around();
         let normals: Vec<Vec3> = self.faces.iter().map(|face| self.middle_normal(face, &face.at_rest(mesh))).collect();
@@ -180,7 +193,8 @@ impl FieldSurface {
                 support.iter().for_each(|&(f, c)| field[f][c] = nodes.len());
                 let on_axis = axial && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
                 let is_vertex = roots.len() == 1 && self.is_vertex(&support, mesh);
-                nodes.push(FieldNode { node, support, is_vertex, on_axis });
+                let mirrors = [if on_axis { Vec3::axis(0) } else { Vec3::zero() }, Vec3::zero()];
+                nodes.push(FieldNode { node, support, is_vertex, mirrors });
             }
         }
         let of = |sides: BTreeSet<Side>| self.faces.iter().map(|face| sides.contains(&face.side)).collect();
@@ -312,15 +326,13 @@ impl FieldSurface {
 
     /// The normal of a node of the field, with the faces placed by `placed`.
     pub fn normal(&self, node: usize, placed: impl Fn(usize) -> PlacedFace) -> NodalNormal {
-        let FieldNode { support, on_axis, .. } = &self.nodes[node];
+        let FieldNode { support, mirrors, .. } = &self.nodes[node];
         let mut sum = Vec3::zero();
         for &(f, corner) in support {
             sum += self.area_vector(&self.faces[f], &placed(f), corner);
         }
-        if *on_axis {
-            sum[0] = 0.0;
-        }
-        NodalNormal { unit: sum.unit(), length: sum.norm(), on_axis: *on_axis }
+        let sum = mirrored(sum, mirrors);
+        NodalNormal { unit: sum.unit(), length: sum.norm(), mirrors: *mirrors }
     }
 
     /// Calls `add` with a node of the mesh and the derivatives of that sum of area vectors along its three displacements.

@@ -552,7 +552,9 @@ impl NodesInPlace<'_> {
             functions: ShapeFunctions::constant(1.0),
             dual: ShapeFunctions::constant(0.0),
             shape: tip.foot.at.shape,
-            gap: tip.foot.to.dot(n) - landing.radius - self.contact.parts.surface.rise(patch.face, xi).0,
+            gap: tip.foot.to.dot(n)
+                - landing.radius
+                - self.contact.parts.surface.rise(patch.face, &self.arcs.own, xi).0,
             bulge: 0.0,
             n,
             v: touched.map_or(Vec3::zero(), |touched| touched.tip - touched.now),
@@ -577,7 +579,7 @@ impl NodesInPlace<'_> {
         let (Some(tip), [point]) = (self.tip(patch, landing), points) else { return };
         let TipInPlace { tool, landing, ref foot, n, .. } = tip;
         let FootInPlace { ref at, centre, to, .. } = *foot;
-        let (_, [slope, _]) = self.contact.parts.surface.rise(patch.face, point.xi);
+        let (_, [slope, _]) = self.contact.parts.surface.rise(patch.face, &self.arcs.own, point.xi);
         for column in columns {
             let carried = |place: Vec3| tool_motion(tool, column, place).0;
             let (dxi, apart, dtangent) = foot.rates(tool, column);

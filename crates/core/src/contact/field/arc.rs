@@ -53,7 +53,7 @@ fn over_edge([h, q]: [f64; 2], x: f64) -> [f64; 2] {
 }
 
 /// Heights of both sides of a contact, face by face; none known are none.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Arcs {
     /// Of the surface,
     pub own: Vec<Heights>,
@@ -221,24 +221,23 @@ impl Chords {
         leaves(one, other).or_else(|| leaves(other, one))
     }
 
-    /// The heights of each face of the surface, with the nodes of the mesh in place: of the
-    /// arc over an edge, or the parabola, at whose ends normals lean by an angle `t` from those of the side, half of its length times
-    /// `tan t/2`. None where they lean to two sides, of what is flat, of one chord alone, and of edges of second degree that follow the
-    /// surface themselves. Where the surface ends it goes on as at the other end of the edge.
+    /// The heights of each face of the surface before any motion.
+    pub fn at_rest(&self) -> Vec<Heights> {
+        self.sides.iter().map(|&side| self.rest[side]).collect()
+    }
+
+    /// Whether they may change.
+    pub fn bend(&self) -> bool {
+        self.bends.contains(&true)
+    }
+
+    /// The same with the nodes of the mesh in place.
     pub fn heights(&self, position: &dyn Fn(usize) -> Vec3) -> Vec<Heights> {
-        let changed = self.bends.contains(&true).then(|| self.of_sides(position));
-        let all = changed.as_ref().unwrap_or(&self.rest);
+        if !self.bend() {
+            return self.at_rest();
+        }
+        let all = self.of_sides(position);
         self.sides.iter().map(|&side| all[side]).collect()
-    }
-
-    /// Whether what rises above the faces is not that before any motion.
-    pub fn have_changed(&self, heights: &[Heights]) -> bool {
-        self.sides.iter().zip(heights).any(|(&side, height)| *height != self.rest[side])
-    }
-
-    /// Whether the smooth surface rises above a face before any motion.
-    pub fn is_round(&self, face: usize) -> bool {
-        self.sides.get(face).is_some_and(|&side| self.rest[side].is_some())
     }
 
     /// The normal at a node of the sides of second degree around it, each by the inverse cubes of its edges there, as those of parabolas lean from that of the arc
@@ -339,6 +338,8 @@ impl Chords {
         self.edges.iter().zip(&leans).map(|(chords, leans)| chords.iter().zip(leans).map(of).collect()).collect()
     }
 
+    /// The heights of each side: of the arc at whose ends normals lean by an angle `t` from those of a straight edge half of the length of that times `tan t/2`, and
+    /// of edges of second degree what an arc has beyond them. None where they lean to two sides, of what is flat, and of one chord alone.
     fn of_sides(&self, position: &dyn Fn(usize) -> Vec3) -> Vec<Heights> {
         let whole = &self.whole;
         let placed = |f: usize| PlacedFace::new(whole.faces[f].nodes.iter().map(|&node| position(node)));

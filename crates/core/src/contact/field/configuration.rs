@@ -52,7 +52,7 @@ impl FieldTarget {
 impl<'a> Configuration<'a> {
     /// At unknowns `u`.
     pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
-        Self::with(contact, u, Arc::new(contact.arcs(u)))
+        Self::with(contact, u, contact.arcs(u))
     }
 
     /// The same with the arcs of another state.

@@ -73,10 +73,10 @@ pub struct FieldContact {
     pub(super) edges: Vec<BodyEdge>,
     /// and convex corners of both sides.
     pub(super) corners: Vec<BodyCorner>,
-    /// Chords of its surface,
-    pub(super) chords: Chords,
-    /// and of the bodies that are its target.
-    seen_chords: Chords,
+    /// Chords of its surface and of the bodies that are its target,
+    chords: [Chords; 2],
+    /// and how far the smooth surfaces for which they stand rise above them before any motion.
+    pub(super) rest: Arc<Arcs>,
     /// Nodes of both sides all of whose displacements are prescribed, step by step.
     pub(super) held: Vec<BTreeSet<usize>>,
     sizes: Vec<f64>,
@@ -124,19 +124,19 @@ impl FieldContact {
         let chords = Chords::of(surface, mesh);
         let mirrors = chords.mirrors(surface, mesh);
         surface.nodes.iter_mut().zip(mirrors).for_each(|(node, mirrors)| node.mirrors = mirrors);
-        let seen_chords = target.as_faces().map(|faces| Chords::of(&faces.surface, mesh)).unwrap_or_default();
-        Self { sides, roles, pieces, edges, corners, chords, seen_chords, held: Vec::new(), sizes, areas }
+        let seen = target.as_faces().map(|faces| Chords::of(&faces.surface, mesh)).unwrap_or_default();
+        let rest = Arc::new(Arcs { own: chords.at_rest(), seen: seen.at_rest() });
+        Self { sides, roles, pieces, edges, corners, chords: [chords, seen], rest, held: Vec::new(), sizes, areas }
     }
 
     /// How far the smooth surfaces that faces of both sides stand for rise above them at unknowns `u`.
-    pub(super) fn arcs(&self, u: &[f64]) -> Arcs {
+    pub(super) fn arcs(&self, u: &[f64]) -> Arc<Arcs> {
+        let [own, seen] = &self.chords;
+        if !own.bend() && !seen.bend() {
+            return self.rest.clone();
+        }
         let position = |node: usize| moved(self.parts.mesh.points[node], &u[self.parts.dofs.displacements(node)]);
-        Arcs { own: self.chords.heights(&position), seen: self.seen_chords.heights(&position) }
-    }
-
-    /// Whether these have changed as both sides moved.
-    pub(super) fn redraws(&self, arcs: &Arcs) -> bool {
-        self.chords.have_changed(&arcs.own) || self.seen_chords.have_changed(&arcs.seen)
+        Arc::new(Arcs { own: own.heights(&position), seen: seen.heights(&position) })
     }
 
     /// Tells it which unknowns the steps prescribe.

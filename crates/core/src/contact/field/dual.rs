@@ -106,7 +106,7 @@ impl FieldContact {
     /// the target or what the face stands for is round before any motion there is half of each.
     pub(super) fn most_dual(&self, patch: &Patch) -> f64 {
         let (surface, face) = (&self.parts.surface, patch.face);
-        let round = surface.curved[face] && (surface.faces[face].kind.degree > 1 || self.chords.is_round(face));
+        let round = surface.curved[face] && (surface.faces[face].kind.degree > 1 || self.rest.own[face].is_some());
         if self.is_straight(patch.target) && !round { 1.0 } else { BLENDED }
     }
 }

@@ -105,8 +105,10 @@ impl FieldContact {
             if self.node_of(slot).is_some() && record.pressure > 0.0 {
                 let [mean, own] = stencil.means(sums, |slot| history.slot(slot)[entry::PRESSURE]);
                 // The value at a node that itself sees nothing is that of a field carried on to where there is none.
-                if own < SEEN[usize::from(!self.parts.surface.plane)] && mean < record.pressure {
-                    record.spread(record.pressure / mean.max(SPREAD * record.pressure));
+                // Unless nodes around it pull, the mean is no less than what its own function has of it.
+                let least = own * record.pressure;
+                if own > 0.0 && own < SEEN[usize::from(!self.parts.surface.plane)] && mean < record.pressure {
+                    record.spread(record.pressure / mean.max(least));
                 }
             }
             if !self.parts.surface.plane && sheared.norm() > 0.0 {
@@ -264,8 +266,6 @@ impl FieldContact {
 
 /// Mean of a node's function over what it sees, in the plane and in space, below which it does not lie there itself: half of that over all of its faces.
 const SEEN: [f64; 2] = [1.0 / 3.0, 2.0 / 9.0];
-/// Least part of the pressure of such a node that is that of what it sees.
-const SPREAD: f64 = 1e-6;
 
 /// Nodes from which on their pressures can be told rough.
 const MANY: usize = 5;

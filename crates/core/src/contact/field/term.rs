@@ -158,7 +158,7 @@ impl Term for FieldContact {
             pointings: before.pointings(history, (far, reach)),
             duals: self.dual_limits(&before.placed, history),
             nearer,
-            redrawn: if self.redraws(&before.arcs) { self.redrawn(&accepted.u, history) } else { Vec::new() },
+            redrawn: if before.arcs == self.rest { Vec::new() } else { self.redrawn(&accepted.u, history) },
             before,
             depths,
             reach,

@@ -219,6 +219,34 @@ fn chords_of_a_sheet_that_bends_are_those_of_its_arc() {
     assert!(late.iter().all(|force| force.abs() < 0.1), "{late:?}");
 }
 
+/// Of a disc in chords that is dragged over a block the flat side carries: friction is that of the law.
+#[test]
+fn a_flat_side_carries_beside_chords() {
+    for cells in [12, 16, 24] {
+        let deck = format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.d.annulus = {{ from = [3.0, -180.0], to = [10.0, 0.0], cells = [4, {cells}], cell = \"quad4\" }}
+            mesh.part.b.rectangle = {{ from = [-16.0, -16.0], to = [16.0, -10.0], cells = [21, 4], cell = \"quad4\" }}
+            material.m.elastic = {{ young = 100.0, poisson = 0.3 }}
+            body.d.material = \"m\"
+            body.b.material = \"m\"
+            contact.c = {{ surface = \"d.outer\", target = \"b.top\", law.coulomb.friction = 0.3 }}
+            [[step]]
+            displacement.\"b.bottom\" = {{ x = 0.0, y = 0.0 }}
+            displacement.\"d.inner\" = {{ x = 0.0, y = -0.5 }}
+            [[step]]
+            displacement.\"d.inner\" = {{ x = 3.0, y = -0.5 }}"
+        );
+        let made = made(&deck, &[]);
+        let columns = columns(&made.model, &run(&made.model));
+        let ratios = columns["contact.c.force.x"].iter().zip(&columns["contact.c.force.y"]).map(|(x, y)| (x / y).abs());
+        let all: Vec<f64> = ratios.collect();
+        let sliding = &all[all.len() - 5..];
+        assert!(sliding.iter().all(|ratio| (ratio / 0.3 - 1.0).abs() < 0.03), "{cells}: {sliding:?}");
+    }
+}
+
 /// Blocks of which the upper one ends a little beyond a row of nodes of the lower, which carries: the pressure beyond is not what the field goes on to.
 #[test]
 fn nodes_beyond_what_touches_have_its_pressure() {

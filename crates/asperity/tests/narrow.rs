@@ -162,3 +162,34 @@ displacement."bar.back" = { z = 0.0 }
     let right = 0.05 / (40.0_f64.powi(3) / (3.0 * 200e3 * 5.0 * 1000.0 / 12.0) + 1.2 * 40.0 / (200e3 / 2.6 * 50.0));
     assert!((forces[3] / right - 1.0).abs() < 0.05, "{} {right}", forces[3]);
 }
+
+/// The force of a part of a ring of `cells` on a flat floor that its nodes do not touch, with its bore pressed down by a hundredth.
+fn ring_on_a_floor(cell: &str, [across, along]: [usize; 2], turned: f64) -> f64 {
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.d.annulus = {{ from = [6.0, {}], to = [10.0, {}], cells = [{across}, {along}], cell = "{cell}" }}
+material.m.elastic = {{ young = 2e5, poisson = 0.3 }}
+body.d.material = "m"
+tool.floor = {{ profile = [{{ line = [[30.0, -10.0], [-30.0, -10.0]] }}] }}
+contact.c = {{ surface = "d.outer", target = "floor", law.frictionless = {{}} }}
+[[step]]
+displacement."d.inner" = {{ x = 0.0, y = -0.01 }}
+"#,
+        -150.0 + turned,
+        -30.0 + turned
+    );
+    last(&deck, "contact.c.force.y")
+}
+
+/// Faces of 2 to 13 half-widths of Hertz: their mean gap is open where the circle touches, and they bore nothing or a third.
+#[test]
+fn round_bodies_narrower_than_their_faces_on_a_floor() {
+    let right = ring_on_a_floor("quad8", [16, 120], 0.4);
+    let rings = [("quad8", [2, 9], 5.0), ("quad8", [4, 16], 3.0), ("quad4", [4, 20], 2.0), ("tri6", [3, 12], 4.0)];
+    for (cell, cells, turned) in rings {
+        let part = ring_on_a_floor(cell, cells, turned) / right - 1.0;
+        assert!(part.abs() < 0.07, "{cell} {cells:?}: {part}");
+    }
+}

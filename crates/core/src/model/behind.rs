@@ -151,14 +151,15 @@ impl<'a> FieldSides<'a> {
     }
 }
 
-/// Whether the first is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
-/// facets the other side cannot all follow; else the much softer of two where the stiffer has corners or much finer faces; else the smaller, whose edges lie
+/// Whether the first is clearly the better side to carry the field: a flat one beside one in chords, whose normals lean to and fro as its nodes pass;
+/// of two in chords the coarser; else the much softer of two where the stiffer has corners or much finer faces; else the smaller, whose edges lie
 /// within the other, as long as it is not much coarser: faces that are covered in part have peaks of pressure at their nodes beyond. Of sides as large it is the
 /// finer, since a coarse field on a fine target misses what lies between its nodes.
 fn suits_better([(other, stiffness), (surface, own_stiffness)]: &[(FieldSurface, f64); 2], mesh: &Mesh) -> bool {
     let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
     if bow.max(own_bow) > CURVED {
-        return fine > ALIKE * own;
+        let [is_flat, own_is_flat] = [other, surface].map(|side| !side.curved.iter().any(|curved| *curved));
+        return if is_flat == own_is_flat { fine > ALIKE * own } else { is_flat };
     }
     let [extent, own_extent] = [other, surface].map(|side| side.extent(mesh));
     let alike = extent.max(own_extent) <= ALIKE * extent.min(own_extent);

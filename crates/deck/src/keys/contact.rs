@@ -137,7 +137,7 @@ impl AugmentationKeys {
 words! {
     /// Which of two bodies carries the field of contact stress.
     pub enum Roles {
-        /// of curved faces of first degree the coarser side, of flat ones the smaller up to faces three times as large, else the finer one; the surface where they are alike, and where it wears
+        /// a flat side beside one in chords of first degree, of two in chords the coarser, of flat ones the smaller up to faces three times as large, else the finer one; the surface where they are alike, and where it wears
         Auto = "auto",
         /// the surface
         Given = "given",

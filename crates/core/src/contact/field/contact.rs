@@ -69,6 +69,8 @@ pub struct FieldContact {
     pub(super) roles: FieldRoles,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
+    /// Which of these are round.
+    round: Vec<bool>,
     /// Convex edges of a target of bodies,
     pub(super) edges: Vec<BodyEdge>,
     /// and convex corners of both sides.
@@ -112,6 +114,14 @@ impl FieldContact {
             }
             FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
         };
+        let round = |piece: usize| match &*target {
+            FieldTarget::Tool(tool) => !tool.is_straight(piece),
+            FieldTarget::Faces(faces) => {
+                let of = faces.surface.pieces.iter().zip(&faces.surface.curved);
+                of.filter(|(of, _)| **of == piece).all(|(_, curved)| *curved)
+            }
+        };
+        let round = (0..pieces).map(round).collect();
         let (mut edges, mut corners) = (Vec::new(), Vec::new());
         if let Some(faces) = target.as_faces() {
             edges = faces.surface.edges(mesh);
@@ -126,7 +136,19 @@ impl FieldContact {
         surface.nodes.iter_mut().zip(mirrors).for_each(|(node, mirrors)| node.mirrors = mirrors);
         let seen = target.as_faces().map(|faces| Chords::of(&faces.surface, mesh)).unwrap_or_default();
         let rest = Arc::new(Arcs { own: chords.at_rest(), seen: seen.at_rest() });
-        Self { sides, roles, pieces, edges, corners, chords: [chords, seen], rest, held: Vec::new(), sizes, areas }
+        Self {
+            sides,
+            roles,
+            pieces,
+            round,
+            edges,
+            corners,
+            chords: [chords, seen],
+            rest,
+            held: Vec::new(),
+            sizes,
+            areas,
+        }
     }
 
     /// How far the smooth surfaces that faces of both sides stand for rise above them at unknowns `u`.
@@ -196,9 +218,9 @@ impl FieldContact {
     pub(super) fn edges_of(&self, piece: usize) -> impl Iterator<Item = &BodyEdge> {
         self.edges.iter().filter(move |edge| edge.faces.iter().any(|&face| self.piece_of(face) == piece))
     }
-    /// Whether a piece of the target is a round one of a tool.
+    /// Whether a piece of the target is a round one.
     pub(super) fn is_round(&self, piece: usize) -> bool {
-        self.parts.target.as_tool().is_some_and(|tool| !tool.is_straight(piece))
+        self.round[piece]
     }
     /// Whether the averaged normals of the surface matter.
     pub(super) fn needs_normals(&self) -> bool {

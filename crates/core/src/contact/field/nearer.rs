@@ -10,7 +10,8 @@
 //!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
 //! the mean gap is nearer to that of the curved surface: around a node of a third row no other has a larger gap, and nothing is added to
-//! it and to those beside it. Nor is it to curved faces of second degree, which follow a round surface by themselves.
+//! it and to those beside it. Nor is it where flat and curved faces meet. What is round on either side lies nearest where it is, not where the gap
+//! less its slope is least, as do flat faces that lean against what is flat.
 //!
 //! What bears flattens. A contact narrower than a face has an approach that the mesh does not resolve, about that of Hertz; what it takes is no
 //! longer added, and nothing is where the contact is four fifths of a face wide. Between bulky bodies that is so almost from the beginning,
@@ -40,6 +41,8 @@ const BESIDE: f64 = 2.0;
 const TOUCHES: f64 = 0.1;
 /// Edges from a node that has no larger gaps around it to what it has nothing added.
 const ROWS: usize = 2;
+/// `a^2 / h^2` of a cylinder up to which it is narrow in a face: its logarithm is -2.
+const NARROW: f64 = 0.135335283236612702;
 /// Places along each half edge at which the gap is looked at.
 const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 
@@ -54,9 +57,12 @@ impl Configuration<'_> {
             (values[entry::SEGMENT] >= 0.0).then(|| -values[entry::PENETRATION])
         };
         let mut nearer = vec![Nearer::default(); contact.slots()];
-        if contact.roles.itself || surface.plane && matches!(self.target, TargetInPlace::Tool(_)) {
-            return nearer;
-        }
+        let is_tool = matches!(self.target, TargetInPlace::Tool(_));
+        // Over round tools in the plane there are tips.
+        let may_bear = |node: usize, piece: usize| {
+            let flat = !contact.roles.itself && !(surface.plane && is_tool) && !surface.is_curved_at(node);
+            flat || surface.is_round_at(node) && !(surface.plane && is_tool && contact.is_round(piece))
+        };
         let mut gaps = Vec::new();
         for piece in 0..contact.pieces {
             let gap = |node: usize| mean(contact.slot(node, piece));
@@ -69,10 +75,11 @@ impl Configuration<'_> {
             let beside = |node: usize| {
                 let touches = |gap: &f64| surface.plane || *gap <= TOUCHES * contact.size_at(contact.slot(node, piece));
                 let Some(own) = gap(node).filter(touches) else { return f64::INFINITY };
-                surface
-                    .neighbours(node)
-                    .map(|other| gap(other).map_or(f64::INFINITY, |gap| gap - own))
-                    .fold(0.0, f64::max)
+                let farther = surface.neighbours(node).map(|other| gap(other).map_or(f64::INFINITY, |gap| gap - own));
+                let most = farther.fold(f64::NEG_INFINITY, f64::max);
+                // Where the surface ends beyond what touches something round nothing else could be farther.
+                let ends = most < 0.0 && contact.is_round(piece) && surface.ends_at(node);
+                if ends { f64::INFINITY } else { most.max(0.0) }
             };
             let spread = |values: Vec<f64>, of: fn(f64, f64) -> f64| -> Vec<f64> {
                 let around = |node: usize| surface.neighbours(node).map(|other| values[other]).fold(values[node], of);
@@ -85,19 +92,16 @@ impl Configuration<'_> {
                 bears = spread(spread(bears, f64::max), f64::max);
             }
             // A surface that folds, slides or spreads onto a flat tool or a body touches it beside what bears already.
-            let follows = |node: usize| !contact.is_round(piece) && !closed(node) && bears[node] > 0.0;
-            let curved = |node: usize| {
-                let mut faces = surface.nodes[node].support.iter().map(|&(face, _)| face);
-                faces.any(|face| surface.faces[face].is_piece() && surface.curved[face])
-            };
-            let near = |&node: &usize| straight[node] > 0.0 && close(node) && !follows(node) && !curved(node);
+            let rolls = is_tool && contact.is_round(piece);
+            let follows = |node: usize| !rolls && !closed(node) && bears[node] > 0.0;
+            let near = |&node: &usize| straight[node] > 0.0 && close(node) && !follows(node) && may_bear(node, piece);
             for node in (0..surface.nodes.len()).filter(near) {
                 let Some(around) = self.around(node, piece, (far, depths), &mut gaps) else { continue };
                 let than = gap(node).map_or(0.0, |gap| gap - around.least);
                 let more = than.min(MOST * around.range);
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
-                    let scale = contact.size_at(slot) / (contact.parts.options.modulus * 2.0 * around.range);
+                    let scale = (contact.parts.options.modulus * around.bend * contact.size_at(slot)).recip();
                     nearer[slot] = Nearer { most, scale, round: around.round };
                     if closed(node) {
                         // What bears is not pushed any farther.
@@ -135,11 +139,12 @@ impl Configuration<'_> {
             let [own, middle] = [face.face.corner_place(corner), face.face.middle()].map(|xi| face.at(xi).x);
             center += (own + (middle - own) * CENTRE) * part;
         }
-        let Beyond { slope, range, round } = beyond_linear(gaps);
-        let leans = |gap: &PlaceGap| if self.contact.is_round(piece) { 0.0 } else { slope.dot(gap.x - center) };
+        let Beyond { slope, range, bend, round } = beyond_linear(gaps);
+        let bends = self.contact.is_round(piece) || self.contact.parts.surface.is_round_at(node);
+        let leans = |gap: &PlaceGap| if bends { 0.0 } else { slope.dot(gap.x - center) };
         let half = gaps.iter().filter(|gap| gap.nearest);
         let least = half.map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
-        least.is_finite().then_some(Around { least, range: range.max(within), round })
+        least.is_finite().then_some(Around { least, range: range.max(within), bend, round })
     }
 
     /// The gap at which a node lies in front of a piece, however far away; zero where nothing of that is in front of it.
@@ -181,7 +186,9 @@ impl Configuration<'_> {
                     faces_it && together(other) && self.contact.may_touch(number, other)
                 };
                 let (other, hit) = faces.nearest(&ray, range, admits)?;
-                let gap = hit.gap - rise - self.seen_rise(other, hit.s);
+                // Along the bisector of both normals, as it is from either side.
+                let between = (0.5 * (1.0 - hit.normal().unit().dot(ray.n))).sqrt();
+                let gap = hit.gap * between - rise - self.seen_rise(other, hit.s);
                 Some(PlaceGap { x, n, gap, nearest: self.contact.piece_of(other) == piece })
             }
         }
@@ -193,7 +200,7 @@ impl Configuration<'_> {
 pub struct Nearer {
     /// How much is added to the penetration where nothing bears.
     pub most: f64,
-    /// `p h / E* K` for a unit of pressure `p`, with `K` the bend of the gap over a face of length `h`.
+    /// `p / E* K h` for a unit of pressure `p`, with `K` the curvatures of the gap and `h` the length of a face.
     scale: f64,
     /// How nearly round the gap is: one under a ball, zero under a cylinder.
     round: f64,
@@ -213,14 +220,14 @@ impl Nearer {
         if bears <= 0.0 {
             return [0.0; 2];
         }
-        // `a^2 / h^2` of both; the logarithm is for contacts that are narrow in a face.
+        // `a^2 / h^2` of both; the logarithm is for contacts that are narrow in a face, and goes on along its tangent.
         let [cylinder, ball] = [4.0 / std::f64::consts::PI * bears, (1.5 * bears).powf(2.0 / 3.0)];
         let log = -cylinder.ln();
-        let wide = log <= 2.0;
-        let [flat, round] = [3.0 * (1.0 - self.round) * cylinder, 6.0 * self.round * ball];
-        let part = flat * log.max(2.0) + round;
-        let slope = flat * if wide { 2.0 } else { log - 1.0 } + round * (2.0 / 3.0);
-        if part < 1.0 { [part, slope / pressure] } else { [1.0, 0.0] }
+        let [line, rate] = if log > 2.0 { [cylinder * log, log - 1.0] } else { [cylinder + NARROW, 1.0] };
+        let [flat, round] = [3.0 * (1.0 - self.round), 6.0 * self.round * ball];
+        let part = flat * line + round;
+        let slope = (flat * cylinder * rate + round * (2.0 / 3.0)) / pressure;
+        if part < 1.0 { [part, slope] } else { [1.0, 0.0] }
     }
 }
 
@@ -228,8 +235,9 @@ impl Nearer {
 struct Around {
     /// The least over the half faces.
     least: f64,
-    /// The range of what a linear gap leaves, and how nearly round that is.
+    /// The range of what a linear gap leaves, the sum of its curvatures, and how nearly round it is.
     range: f64,
+    bend: f64,
     round: f64,
 }
 
@@ -266,7 +274,8 @@ fn places<'a>(face: &'a FaceInPlace, corner: usize) -> impl Iterator<Item = (boo
 struct Beyond {
     slope: Vec3,
     range: f64,
-    /// How it bends along two directions, the less over the more.
+    /// The sum of its curvatures, and the less over the larger.
+    bend: f64,
     round: f64,
 }
 
@@ -303,18 +312,25 @@ fn beyond_linear(gaps: &[PlaceGap]) -> Beyond {
     let [least, most] = gaps.iter().map(left).fold([f64::INFINITY, f64::NEG_INFINITY], extent);
     let range = most - least;
     if range.is_nan() || range <= 0.0 {
-        return Beyond { slope: Vec3::zero(), range: 0.0, round: 0.0 };
+        return Beyond { slope: Vec3::zero(), range: 0.0, bend: 0.0, round: 0.0 };
     }
     // How it bends, by its moments with the products of both coordinates; of these the principal values.
-    let bend = |[a, b]: [Vec3; 2]| -> f64 {
+    let moment = |[a, b]: [Vec3; 2]| -> f64 {
         let product = |gap: &PlaceGap| a.dot(along(gap)) * b.dot(along(gap));
         let middle = gaps.iter().map(product).sum::<f64>() * part;
         gaps.iter().map(|gap| (product(gap) - middle) * left(gap)).sum()
     };
-    let [first, mixed, second] = [[0, 0], [0, 1], [1, 1]].map(|pair| bend(pair.map(|i: usize| axes[i])));
+    let [first, mixed, second] = [[0, 0], [0, 1], [1, 1]].map(|pair| moment(pair.map(|i: usize| axes[i])));
     let (mean, half) = (0.5 * (first + second), (0.5 * (first - second)).hypot(mixed));
     let round = if mean > half { (mean - half) / (mean + half) } else { 0.0 };
-    Beyond { slope, range, round }
+    let (sin, cos) = (0.5 * (2.0 * mixed).atan2(first - second)).sin_cos();
+    let direction = axes[0] * cos + axes[1] * sin;
+    let square = |gap: &PlaceGap| direction.dot(along(gap)).powi(2);
+    let middle = gaps.iter().map(square).sum::<f64>() * part;
+    let squares: f64 = gaps.iter().map(|gap| (square(gap) - middle).powi(2)).sum();
+    // At least that of a parabola of this range over all of the places.
+    let least = 2.0 * range / gaps.iter().map(|gap| along(gap).dot(along(gap))).fold(0.0, f64::max);
+    Beyond { slope, range, bend: (2.0 * (mean + half) / squares * (1.0 + round)).max(least), round }
 }
 
 /// Part of the size of places across which they have no width.

@@ -100,7 +100,8 @@ impl FieldContact {
             record.area = area * stencil.stretch().0;
             let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
             record.resultant = Some([force, sums.place]);
-            (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), sums.facing());
+            let facing = stencil.facing(sums, values[entry::NEARER] > 0.0);
+            (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), facing);
             record.along = e1.unit();
             if self.node_of(slot).is_some() && record.pressure > 0.0 {
                 let [mean, own] = stencil.means(sums, |slot| history.slot(slot)[entry::PRESSURE]);

@@ -211,6 +211,28 @@ impl<'a> StencilInPlace<'a> {
         })
     }
 
+    /// Mean outward normal of the smooth surface that the node sees; of a body that is narrow against its faces of what is nearer than in the mean.
+    pub fn facing(&self, sums: &NodeSums, is_narrow: bool) -> Vec3 {
+        let patches: Vec<_> = self.patches().collect();
+        let target = self.at.contact.parts.target.as_faces();
+        let normal = |of: usize, point: &PatchPoint| match (&point.sight, target) {
+            (Sight::Face(hit), Some(faces)) => {
+                let (n, [a, b]) = (hit.normal(), hit.tangents);
+                let (_, [along, across]) = faces.surface.rise(patches[of].0.target, &self.at.arcs.seen, hit.s);
+                (a + n * along).cross(b + n * across).unit()
+            }
+            _ => -point.n,
+        };
+        let (mut all, mut nearest) = (Vec3::zero(), Vec3::zero());
+        for &NodePoint { of: (number, k), weight, .. } in &sums.points {
+            let point = &sums.patches[number].points[k];
+            let facing = normal(number, point) * weight;
+            all += facing;
+            nearest += facing * (-sums.y[0] - point.gap).max(0.0).powi(2);
+        }
+        if is_narrow && target.is_some() && nearest.norm() > 0.0 { nearest.unit() } else { all.unit() }
+    }
+
     /// The mean of the field with values `pressure` at its slots over what the node sees, and of the node's own function there.
     pub fn means(&self, sums: &NodeSums, pressure: impl Fn(usize) -> f64) -> [f64; 2] {
         let (contact, patches) = (self.at.contact, self.patches().collect::<Vec<_>>());
@@ -486,16 +508,6 @@ impl<'a> StencilInPlace<'a> {
 }
 
 impl NodeSums {
-    /// Mean outward normal of what the node sees.
-    pub fn facing(&self) -> Vec3 {
-        let normal = |point: &PatchPoint| match &point.sight {
-            Sight::Face(hit) => hit.normal(),
-            _ => -point.n,
-        };
-        let points = self.points.iter();
-        points.fold(Vec3::zero(), |sum, p| sum + normal(&self.patches[p.of.0].points[p.of.1]) * p.weight).unit()
-    }
-
     fn find_gradients(&mut self, n: usize, size: f64) {
         let Self { area, y, gradients, patches, points, rates, columns, starts, .. } = self;
         gradients.clear();

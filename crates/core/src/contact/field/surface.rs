@@ -370,6 +370,16 @@ impl FieldSurface {
         a.cross(b).norm() * around * self.thickness
     }
 
+    /// Whether all faces around a node of the field are curved.
+    pub fn is_round_at(&self, node: usize) -> bool {
+        self.nodes[node].support.iter().all(|&(face, _)| self.curved[face])
+    }
+
+    /// Whether one of them is and follows that by itself.
+    pub fn is_curved_at(&self, node: usize) -> bool {
+        self.nodes[node].support.iter().any(|&(face, _)| self.curved[face] && self.faces[face].is_piece())
+    }
+
     /// Whether the surface ends at a node of the field.
     pub fn ends_at(&self, node: usize) -> bool {
         let around = &self.nodes[node].support;

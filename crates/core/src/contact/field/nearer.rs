@@ -101,7 +101,11 @@ impl Configuration<'_> {
                 let more = than.min(MOST * around.range);
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
-                    let scale = (contact.parts.options.modulus * around.bend * contact.size_at(slot)).recip();
+                    let size = contact.size_at(slot);
+                    // Flat faces bend by what their range is over their size.
+                    let flat = 2.0 * around.range / (size * size);
+                    let bend = if surface.is_round_at(node) { around.bend } else { flat };
+                    let scale = (contact.parts.options.modulus * bend * size).recip();
                     nearer[slot] = Nearer { most, scale, round: around.round };
                     if closed(node) {
                         // What bears is not pushed any farther.

@@ -42,14 +42,14 @@ const TOUCHES: f64 = 0.1;
 /// Edges from a node that has no larger gaps around it to what it has nothing added.
 const ROWS: usize = 2;
 /// `a^2 / h^2` of a cylinder up to which it is narrow in a face: its logarithm is -2.
-const NARROW: f64 = 0.135335283236612702;
+const NARROW: f64 = 0.135_335_283_236_612_7;
 /// Places along each half edge at which the gap is looked at.
 const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 
 impl Configuration<'_> {
     /// For each slot of an accepted configuration how much nearer the target is than in the mean, if its gap is no larger than `far`. Nothing over
-    /// tools in the plane, which have tips, and dual functions where they are straight, nor where a surface folds onto itself. `depths` are
-    /// those of its faces.
+    /// round tools in the plane, which have tips, of flat faces over any of these or their own surface, and where flat faces of second degree
+    /// meet curved ones. `depths` are those of its faces.
     pub(super) fn nearer(&self, history: &History, (far, depths): (f64, &[f64])) -> Vec<Nearer> {
         let (contact, surface) = (self.contact, &self.contact.parts.surface);
         let mean = |slot: usize| {
@@ -58,10 +58,14 @@ impl Configuration<'_> {
         };
         let mut nearer = vec![Nearer::default(); contact.slots()];
         let is_tool = matches!(self.target, TargetInPlace::Tool(_));
-        // Over round tools in the plane there are tips.
+        // Tools in the plane have tips, but where what is round lies on a straight one.
+        let has_tips = surface.plane && is_tool;
         let may_bear = |node: usize, piece: usize| {
-            let flat = !contact.roles.itself && !(surface.plane && is_tool) && !surface.is_curved_at(node);
-            flat || surface.is_round_at(node) && !(surface.plane && is_tool && contact.is_round(piece))
+            if surface.is_round_at(node) {
+                !(has_tips && contact.is_round(piece))
+            } else {
+                !(has_tips || contact.roles.itself || surface.is_curved_at(node))
+            }
         };
         let mut gaps = Vec::new();
         for piece in 0..contact.pieces {

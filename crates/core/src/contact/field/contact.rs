@@ -69,7 +69,7 @@ pub struct FieldContact {
     pub(super) roles: FieldRoles,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
-    /// Which of these are round.
+    /// Which of these are round all over.
     round: Vec<bool>,
     /// Convex edges of a target of bodies,
     pub(super) edges: Vec<BodyEdge>,
@@ -106,22 +106,14 @@ impl FieldContact {
             surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
         };
         let areas = surface.nodes.iter().map(|node| node.support.iter().map(area).sum()).collect();
-        let pieces = match target {
+        let round: Vec<bool> = match target {
             FieldTarget::Tool(rigid) => {
                 let [shortest, longest] = surface.sizes(mesh);
                 rigid.sharpen([SMALL * shortest, LARGE * surface.mean_size(mesh)], longest);
-                rigid.pieces()
+                (0..rigid.pieces()).map(|piece| !rigid.is_straight(piece)).collect()
             }
-            FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
+            FieldTarget::Faces(faces) => faces.surface.round_pieces(),
         };
-        let round = |piece: usize| match &*target {
-            FieldTarget::Tool(tool) => !tool.is_straight(piece),
-            FieldTarget::Faces(faces) => {
-                let of = faces.surface.pieces.iter().zip(&faces.surface.curved);
-                of.filter(|(of, _)| **of == piece).all(|(_, curved)| *curved)
-            }
-        };
-        let round = (0..pieces).map(round).collect();
         let (mut edges, mut corners) = (Vec::new(), Vec::new());
         if let Some(faces) = target.as_faces() {
             edges = faces.surface.edges(mesh);
@@ -139,7 +131,7 @@ impl FieldContact {
         Self {
             sides,
             roles,
-            pieces,
+            pieces: round.len(),
             round,
             edges,
             corners,
@@ -218,7 +210,7 @@ impl FieldContact {
     pub(super) fn edges_of(&self, piece: usize) -> impl Iterator<Item = &BodyEdge> {
         self.edges.iter().filter(move |edge| edge.faces.iter().any(|&face| self.piece_of(face) == piece))
     }
-    /// Whether a piece of the target is a round one.
+    /// Whether a piece of the target is round all over.
     pub(super) fn is_round(&self, piece: usize) -> bool {
         self.round[piece]
     }

@@ -10,7 +10,7 @@
 //!
 //! As for a tip in the plane ([`tip`](super::tip)) this is so where one or two rows of nodes touch. Where the surface follows the target
 //! the mean gap is nearer to that of the curved surface: around a node of a third row no other has a larger gap, and nothing is added to
-//! it and to those beside it. Nor is it where flat and curved faces meet. What is round on either side lies nearest where it is, not where the gap
+//! it and to those beside it. Nor is it where flat and curved faces of second degree meet in space. What is round on either side lies nearest where it is, not where the gap
 //! less its slope is least, as do flat faces that lean against what is flat.
 //!
 //! What bears flattens. A contact narrower than a face has an approach that the mesh does not resolve, about that of Hertz; what it takes is no
@@ -105,11 +105,7 @@ impl Configuration<'_> {
                 let more = than.min(MOST * around.range);
                 if more > 0.0 {
                     let (slot, most) = (contact.slot(node, piece), more.min(straight[node] / BESIDE));
-                    let size = contact.size_at(slot);
-                    // Flat faces bend by what their range is over their size.
-                    let flat = 2.0 * around.range / (size * size);
-                    let bend = if surface.is_round_at(node) { around.bend } else { flat };
-                    let scale = (contact.parts.options.modulus * bend * size).recip();
+                    let scale = (contact.parts.options.modulus * around.bend * contact.size_at(slot)).recip();
                     nearer[slot] = Nearer { most, scale, round: around.round };
                     if closed(node) {
                         // What bears is not pushed any farther.
@@ -148,11 +144,15 @@ impl Configuration<'_> {
             center += (own + (middle - own) * CENTRE) * part;
         }
         let Beyond { slope, range, bend, round } = beyond_linear(gaps);
-        let bends = self.contact.is_round(piece) || self.contact.parts.surface.is_round_at(node);
-        let leans = |gap: &PlaceGap| if bends { 0.0 } else { slope.dot(gap.x - center) };
+        let (round_target, round_node) = (self.contact.is_round(piece), self.contact.parts.surface.is_round_at(node));
+        let leans = |gap: &PlaceGap| if round_target || round_node { 0.0 } else { slope.dot(gap.x - center) };
         let half = gaps.iter().filter(|gap| gap.nearest);
         let least = half.map(|gap| gap.gap - leans(gap)).fold(f64::INFINITY, f64::min);
-        least.is_finite().then_some(Around { least, range: range.max(within), bend, round })
+        let range = range.max(within);
+        // Over flat faces that of a parabola of this range, of which one half is seen where they end.
+        let bend =
+            if round_node { bend } else { 2.0 * range / self.contact.size_at(self.contact.slot(node, piece)).powi(2) };
+        least.is_finite().then_some(Around { least, range, bend, round })
     }
 
     /// The gap at which a node lies in front of a piece, however far away; zero where nothing of that is in front of it.
@@ -195,7 +195,7 @@ impl Configuration<'_> {
                 };
                 let (other, hit) = faces.nearest(&ray, range, admits)?;
                 // Along the bisector of both normals, as it is from either side.
-                let between = (0.5 * (1.0 - hit.normal().unit().dot(ray.n))).sqrt();
+                let between = (0.5 * (1.0 - hit.normal().dot(ray.n))).sqrt();
                 let gap = hit.gap * between - rise - self.seen_rise(other, hit.s);
                 Some(PlaceGap { x, n, gap, nearest: self.contact.piece_of(other) == piece })
             }
@@ -243,9 +243,11 @@ impl Nearer {
 struct Around {
     /// The least over the half faces.
     least: f64,
-    /// The range of what a linear gap leaves, the sum of its curvatures, and how nearly round it is.
+    /// The range of what a linear gap leaves,
     range: f64,
+    /// the sum of its curvatures,
     bend: f64,
+    /// and how nearly round it is: the less of these over the larger.
     round: f64,
 }
 
@@ -282,8 +284,9 @@ fn places<'a>(face: &'a FaceInPlace, corner: usize) -> impl Iterator<Item = (boo
 struct Beyond {
     slope: Vec3,
     range: f64,
-    /// The sum of its curvatures, and the less over the larger.
+    /// The sum of its curvatures.
     bend: f64,
+    /// The less of them over the larger.
     round: f64,
 }
 

@@ -370,12 +370,19 @@ impl FieldSurface {
         a.cross(b).norm() * around * self.thickness
     }
 
+    /// Which smooth pieces consist of curved faces alone.
+    pub fn round_pieces(&self) -> Vec<bool> {
+        let mut round = vec![true; self.pieces.iter().max().map_or(0, |last| last + 1)];
+        self.pieces.iter().zip(&self.curved).for_each(|(&piece, curved)| round[piece] &= curved);
+        round
+    }
+
     /// Whether all faces around a node of the field are curved.
     pub fn is_round_at(&self, node: usize) -> bool {
         self.nodes[node].support.iter().all(|&(face, _)| self.curved[face])
     }
 
-    /// Whether one of them is and follows that by itself.
+    /// Whether a part of a face of second degree around it is.
     pub fn is_curved_at(&self, node: usize) -> bool {
         self.nodes[node].support.iter().any(|&(face, _)| self.curved[face] && self.faces[face].is_piece())
     }

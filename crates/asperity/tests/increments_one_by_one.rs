@@ -5,7 +5,7 @@ mod support;
 use asperity::Error;
 use asperity::deck::{self, Made};
 use asperity::output::{Begun, CHECKPOINT, Job, RunStatus, SUMMARY, Simulation, Start, Summary, simulate};
-use asperity::solve::Silent;
+use asperity::solve::{AttemptRecord, IterationRecord, Observer, Silent};
 use std::path::Path;
 
 fn tube() -> Made {
@@ -79,4 +79,42 @@ fn a_run_that_is_stopped_between_increments_leaves_a_checkpoint() {
     assert!(directory.path().join(CHECKPOINT).exists());
     let mut again = begun(&made, &job(&made, directory.path(), Start::Checkpoint, &facts));
     assert_eq!(again.advance(&mut Silent).unwrap().unwrap().increment, 2);
+}
+
+/// Asks for a stop once an iteration of an increment was made.
+struct Impatient {
+    increment: usize,
+    made: bool,
+}
+
+impl Observer for Impatient {
+    fn iteration(&mut self, attempt: &AttemptRecord, iteration: &IterationRecord) {
+        self.made |= attempt.increment == self.increment && iteration.iteration == 1;
+    }
+    fn wants_stop(&self) -> bool {
+        self.made
+    }
+}
+
+#[test]
+fn a_run_that_is_stopped_between_iterations_is_as_if_the_increment_had_not_begun() {
+    let (made, facts) = (tube(), deck::facts(&tube()));
+    let directory = tempfile::tempdir().unwrap();
+    let mut simulation = begun(&made, &job(&made, directory.path(), Start::Beginning, &facts));
+    let mut impatient = Impatient { increment: 3, made: false };
+    (0..2).for_each(|_| drop(simulation.advance(&mut impatient).unwrap()));
+    let before = simulation.state().clone();
+    assert_eq!(simulation.advance(&mut impatient), Err(Error::Stopped));
+    let state = simulation.state();
+    assert_eq!(
+        (&state.u, state.increment, state.attempts, state.iterations),
+        (&before.u, 2, before.attempts, before.iterations)
+    );
+    assert_eq!(simulation.finish(Err(Error::Stopped), &facts).unwrap().1, Err(Error::Stopped));
+
+    let u = complete(*begun(&made, &job(&made, directory.path(), Start::Checkpoint, &facts)), &made).0;
+    assert_eq!(
+        u,
+        complete(*begun(&made, &job(&made, tempfile::tempdir().unwrap().path(), Start::Beginning, &facts)), &made).0
+    );
 }

@@ -557,7 +557,7 @@ impl Look<'_> {
     }
 
     fn words(&self, found: &Found) -> String {
-        let ([own, other], Vec3([x, y, z])) = (self.names(found), found.place);
+        let ([own, other], Vec3([x, y, z])) = (self.names(found), found.place + self.subject.mesh.origin);
         let place = if self.subject.dofs.per_node() == 2 {
             format!("({x:.6}, {y:.6})")
         } else {

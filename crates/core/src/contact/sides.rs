@@ -85,7 +85,8 @@ impl ContactSides {
     }
     /// Where moments are taken about: the present place of a tool's reference point, or the origin.
     pub fn pole(&self, u: &[f64]) -> Vec3 {
-        self.parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.at(u).reference())
+        let origin = Vec3::zero() - self.parts.mesh.origin;
+        self.parts.target.as_tool().map_or(origin, |rigid| rigid.at(u).reference())
     }
 
     /// Mesh and numbering.

@@ -1,15 +1,21 @@
 //! The mesh itself: points, cells of any kinds, named groups.
 
-use super::{Cell, Group, Side};
+use super::{Cell, Group, Side, Space};
 use crate::error::Error;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
 
+/// Distance from the origin of the coordinates over the extent of a mesh beyond which it has an origin of its own: its gaps would lose
+/// two digits and more.
+const FAR: f64 = 100.0;
+
 /// Points, cells and groups. Plane meshes have z = 0; axisymmetric ones are drawn in (r, z) = (x, y).
 #[derive(Debug, Clone)]
 pub struct Mesh {
-    /// Positions of the nodes, undeformed.
+    /// Positions of the nodes, undeformed, from the origin of the mesh.
     pub points: Vec<Vec3>,
+    /// Where that lies in the coordinates of the deck and of the mesh's file: zero but for a mesh that is far from theirs.
+    pub origin: Vec3,
     /// Kind of each cell; cells of lower dimension than the space (lines drawn for a group) do not stand here.
     pub kinds: Vec<&'static Cell>,
     /// Nodes of cell `c` are `nodes[starts[c]..starts[c + 1]]`; one entry more than cells.
@@ -53,6 +59,7 @@ impl Mesh {
     pub fn new() -> Self {
         Self {
             points: vec![],
+            origin: Vec3::zero(),
             kinds: vec![],
             starts: vec![0],
             nodes: vec![],
@@ -60,6 +67,31 @@ impl Mesh {
             numbers: Numbers::default(),
             before_raised: None,
         }
+    }
+    /// Where a node lies in the coordinates of the deck and of the mesh's file.
+    pub fn place(&self, node: usize) -> Vec3 {
+        self.points[node] + self.origin
+    }
+    /// Puts the origin of the mesh near its nodes, where they lie farther than a hundred times their extent from that of the
+    /// coordinates, as in coordinates of a land survey: a position that is the sum of such a number and a displacement has lost the
+    /// digits that a gap is made of. Radii stay what they are.
+    ///
+    /// The origin is a multiple of a power of two beyond the extent, so that positions lose nothing by it.
+    pub fn recentre(&mut self, space: Space) {
+        let bounds = |axis: usize| {
+            let x = self.points.iter().map(|point| point[axis]);
+            x.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        };
+        let bounds: [_; 3] = std::array::from_fn(bounds);
+        let extent = bounds.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        let unit = extent.log2().ceil().exp2();
+        let origin = |axis: usize| {
+            let middle = 0.5 * bounds[axis][0] + 0.5 * bounds[axis][1];
+            let is_far = extent > 0.0 && middle.abs() > FAR * extent && !(space == Space::Axisymmetric && axis == 0);
+            if is_far { (middle / unit).round() * unit } else { 0.0 }
+        };
+        self.origin = Vec3(std::array::from_fn(origin));
+        self.points.iter_mut().for_each(|point| *point -= self.origin);
     }
     /// Number of cells.
     pub fn cell_count(&self) -> usize {

@@ -400,6 +400,9 @@ impl<'a> Newton<'a> {
             if given_up {
                 return Ok(None);
             }
+            if observer.wants_stop() {
+                return Err(SolveError::Error(Error::Stopped));
+            }
             if main && self.steady > STEADY && !self.regularised.is_empty() && norms.ratio > PUSHED * sequence.ratio {
                 return Err(self.pushed().into());
             }

@@ -123,12 +123,12 @@ pub trait Observer {
     fn accepted(&mut self, _state: &State, _attempt: &AttemptRecord) -> Result<(), crate::Error> {
         Ok(())
     }
-    /// Whether the run should stop at the accepted state.
+    /// Whether the run should stop at the last accepted state; asked before each increment and between iterations.
     fn wants_stop(&self) -> bool {
         false
     }
-    /// Whether it stops there, where something else asks for it or does not: once an increment, so that several processes may
-    /// agree.
+    /// Whether it stops there, where something else asks for it or does not: every process asks at the same places, so that
+    /// several may agree.
     fn stops(&self, asked: bool) -> bool {
         asked || self.wants_stop()
     }

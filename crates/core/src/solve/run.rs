@@ -90,7 +90,8 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// [`Error::NotConverged`] when the increments shrink to nothing or a motion is held by nothing; [`Error::Input`] when
-    /// it does not fit into memory or began with a state of another model; an error of the observer.
+    /// it does not fit into memory or began with a state of another model; an error of the observer. An observer that asks
+    /// for a stop is no error.
     pub fn run(&mut self, options: &RunOptions, observer: &mut dyn Observer) -> Result<Stop, Error> {
         self.check_state()?;
         self.problem.check_memory(&self.state)?;
@@ -99,7 +100,10 @@ impl<'a> Run<'a> {
             if observer.wants_stop() || options.increments.is_some_and(|most| accepted >= most) {
                 return Ok(Stop::Asked);
             }
-            self.advance(observer)?;
+            match self.advance(observer) {
+                Err(Error::Stopped) => return Ok(Stop::Asked),
+                advanced => advanced?,
+            };
             accepted += 1;
         }
         Ok(Stop::Done)
@@ -117,7 +121,8 @@ impl<'a> Run<'a> {
     /// Solves the next increment and accepts it; none when all steps are done.
     ///
     /// # Errors
-    /// As [`run`](Self::run). The accepted state then is the last one that was reached.
+    /// As [`run`](Self::run), and [`Error::Stopped`] when the observer asks for it between two iterations. The accepted state
+    /// then is the last one that was reached.
     pub fn advance(&mut self, observer: &mut dyn Observer) -> Result<Option<AttemptRecord>, Error> {
         self.check_state()?;
         let Some(step) = self.problem.steps.get(self.state.step) else { return Ok(None) };
@@ -160,6 +165,8 @@ impl<'a> Run<'a> {
         let mut caution = self.state.caution;
         // In a step that has just begun no size has served.
         let begun = self.state.step_time > 0.0;
+        let (arc, stopped, spent) =
+            (self.state.arc, self.state.stopped.clone(), [self.state.attempts, self.state.iterations]);
         let served = if begun { caution.usual(step) } else { RELAX * caution.usual(step) };
         let again = self.problem.contacts.is_empty() && self.state.jumps > 0;
         let longest = if again { served } else { RELAX * served };
@@ -256,6 +263,9 @@ impl<'a> Run<'a> {
                 Err(SolveError::Error(error)) => {
                     record.failure = Some(error.to_string());
                     observer.attempt(&record);
+                    // What goes on from here does so as if the increment had not begun.
+                    (self.state.arc, self.state.stopped) = (arc, stopped);
+                    [self.state.attempts, self.state.iterations] = spent;
                     return Err(error);
                 }
                 Err(SolveError::Failure(failure)) => {

@@ -63,7 +63,7 @@ impl Builder<'_> {
 
     fn along(&mut self, body: Body, keys: &BodyKeys) -> Option<Body> {
         let Some(said) = &keys.axes else { return Some(body) };
-        let Some(axes) = said.axes() else {
+        let Some(axes) = said.axes(self.site.mesh.origin) else {
             self.refuse("`along` is zero: the axis has no direction", said.along.place);
             return None;
         };
@@ -131,7 +131,7 @@ impl Builder<'_> {
             );
             return None;
         }
-        self.keep(body.prestressed(stress.field()), name.place)
+        self.keep(body.prestressed(stress.field(self.site.mesh.origin[1])), name.place)
     }
 
     /// The body with its temperature, which needs an expansion and a step that says it.

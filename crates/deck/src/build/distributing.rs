@@ -54,7 +54,7 @@ impl Builder<'_> {
                 self.refuse(what, reference.place);
                 return None;
             }
-            Some(reference) => Vec3(std::array::from_fn(|i| reference.get(i).copied().unwrap_or(0.0))),
+            Some(reference) => self.point(reference),
             None => {
                 let sum = |of: &dyn Fn(usize) -> Vec3| {
                     weights.iter().fold(Vec3::zero(), |sum, &(node, w)| sum + of(node) * w)

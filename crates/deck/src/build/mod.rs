@@ -32,6 +32,7 @@ use asperity_core::mesh::Space;
 use asperity_core::model::{Model, ModelParts};
 use asperity_core::solve::{Increments, Step, engine};
 use asperity_core::system::{Dofs, Term};
+use asperity_core::tensor::Vec3;
 use asperity_core::{Error, machine};
 use asperity_results::output::checkpoint::InputHash;
 use asperity_results::output::{Asked, Part, ResultOptions};
@@ -55,6 +56,11 @@ pub struct Made {
     pub parts: Vec<Part>,
     /// Warnings and notes, and the texts that later messages point into.
     pub diagnostics: Diagnostics,
+}
+
+/// Numbers of the deck as a vector; those that it does not say are zero.
+fn vector(x: &[f64]) -> Vec3 {
+    Vec3(std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0)))
 }
 
 /// What the builders of the parts share: the deck, where things are, and what was found.
@@ -94,6 +100,11 @@ impl Builder<'_> {
         &nodes[..if own == 0 { all } else { own }]
     }
 
+    /// A point of the deck, from the origin of the mesh.
+    fn point(&self, x: &[f64]) -> Vec3 {
+        vector(x) - self.site.mesh.origin
+    }
+
     fn plane(&self) -> bool {
         self.site.space.dimension() == 2
     }
@@ -119,8 +130,9 @@ impl Made {
 /// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
 pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     let texts = texts(&loaded);
-    let Loaded { deck, mesh, folder, elsewhere, unsaid, mut parts, mut diagnostics } = loaded;
+    let Loaded { deck, mut mesh, folder, elsewhere, unsaid, mut parts, mut diagnostics } = loaded;
     let space = *deck.space;
+    mesh.recentre(space);
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len() + deck.rigid.len());
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
     let site = Site { mesh: Arc::new(mesh), dofs, space, thickness };

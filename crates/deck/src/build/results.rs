@@ -1,5 +1,6 @@
 //! What a run is to write: probes and tables, found in the mesh and checked against what the model reports.
 
+use super::vector;
 use crate::diagnose::Diagnostic;
 use crate::keys::{Deck, PathKeys, PrintedOf, ProbeAt, ProbeKeys};
 use crate::source::Spot;
@@ -166,11 +167,12 @@ fn coordinates(model: &Model, point: &Spot<Vec<f64>>, found: &mut Vec<Diagnostic
         found.push(Diagnostic::error(what).at(point.place));
         return None;
     }
-    Some(Vec3::new(point[0], point[1], point.get(2).copied().unwrap_or(0.0)))
+    Some(vector(point) - model.mesh.origin)
 }
 
 fn words(model: &Model, x: Vec3) -> String {
-    let coordinates: Vec<String> = x.0[..model.space.dimension()].iter().map(f64::to_string).collect();
+    let coordinates: Vec<String> =
+        (x + model.mesh.origin).0[..model.space.dimension()].iter().map(f64::to_string).collect();
     format!("[{}]", coordinates.join(", "))
 }
 

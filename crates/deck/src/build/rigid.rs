@@ -65,7 +65,7 @@ impl Builder<'_> {
                 self.refuse(what, reference.place);
                 return None;
             }
-            Some(reference) => Vec3(std::array::from_fn(|i| reference.get(i).copied().unwrap_or(0.0))),
+            Some(reference) => self.point(reference),
             None => {
                 let sum = nodes.iter().fold(Vec3::zero(), |sum, &node| sum + mesh.points[node]);
                 sum * (nodes.len().max(1) as f64).recip()

@@ -1,6 +1,6 @@
 //! Rigid tools in space, with what their check finds shown at the tool concerned.
 
-use super::Builder;
+use super::{Builder, vector};
 use crate::diagnose::Diagnostic;
 use crate::keys::{FacetKeys, SegmentKeys, StlKeys, ToolKeys};
 use crate::reader::Name;
@@ -11,10 +11,6 @@ use asperity_core::tool::space::solids::{Facets, cone, extruded, plane, polygons
 use asperity_core::tool::space::{FacetFinding, ProfileFrame, SpaceTool, SweepPath, is_thin, swept};
 use asperity_core::tool::{self, FindingSeverity};
 use std::sync::Arc;
-
-fn vector(x: &[f64]) -> Vec3 {
-    Vec3(std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0)))
-}
 
 impl Builder<'_> {
     /// The tools of a model in space.
@@ -37,18 +33,18 @@ impl Builder<'_> {
             return self.triangles(stl);
         }
         let made = if let Some(facets) = &keys.facets {
-            of_nodes(facets)
+            self.of_nodes(facets)
         } else if let Some(it) = &keys.plane {
-            plane(vector(&it.at), vector(&it.normal), it.side)
+            plane(self.point(&it.at), vector(&it.normal), it.side)
         } else if let Some(it) = &keys.sphere {
-            sphere(vector(&it.center), it.radius)
+            sphere(self.point(&it.center), it.radius)
         } else if let Some(it) = &keys.cylinder {
-            cone(vector(&it.from), vector(&it.to), [it.radius; 2], it.fillet)
+            cone(self.point(&it.from), self.point(&it.to), [it.radius; 2], it.fillet)
         } else if let Some(it) = &keys.cone {
-            cone(vector(&it.from), vector(&it.to), [it.radii[0], it.radii[1]], it.fillet)
+            cone(self.point(&it.from), self.point(&it.to), [it.radii[0], it.radii[1]], it.fillet)
         } else {
             let it = keys.torus.as_ref()?;
-            torus(vector(&it.center), vector(&it.axis), it.radius, it.tube)
+            torus(self.point(&it.center), vector(&it.axis), it.radius, it.tube)
         };
         let told = made.map_err(|why| asperity_core::Error::input(format!("tool `{name}`: {why}")));
         self.keep(told, keys.place)
@@ -56,20 +52,20 @@ impl Builder<'_> {
 
     /// A profile that is revolved, extruded or swept, judged as a profile first.
     fn swept(&mut self, name: &Name, keys: &ToolKeys, profile: &Spot<Vec<SegmentKeys>>) -> Option<Facets> {
-        let (segments, _) = self.segments(profile, keys)?;
-        let (again, places) = self.segments(profile, keys)?;
+        let (segments, _) = self.segments(profile, keys, Vec3::zero())?;
+        let (again, places) = self.segments(profile, keys, Vec3::zero())?;
         let flat = tool::ProfileTool::new(&name.text, vec![again], Vec3::zero());
         if !self.judge(&flat, (&places, profile.place), keys.revolve.is_some()) {
             return None;
         }
         let told = |why| asperity_core::Error::input(format!("tool `{name}`: {why}"));
         if let Some(it) = &keys.revolve {
-            let frame = ProfileFrame::about(vector(&it.origin), vector(&it.axis)).map_err(told);
+            let frame = ProfileFrame::about(self.point(&it.origin), vector(&it.axis)).map_err(told);
             return self.keep(frame, it.place).map(|frame| revolved(segments, frame));
         }
         if let Some(it) = &keys.sweep {
-            let drafts = self.drafts(profile, keys)?;
-            let frame = ProfileFrame::across(vector(&it.origin), vector(&it.axis), vector(&it.x));
+            let drafts = self.drafts(profile, keys, Vec3::zero())?;
+            let frame = ProfileFrame::across(self.point(&it.origin), vector(&it.axis), vector(&it.x));
             let corners = it.path.iter().map(|corner| vector(corner)).collect();
             let path = |frame| SweepPath { frame, corners, radius: it.radius, closed: it.closed };
             let facets = frame.and_then(|frame| swept(&drafts, &path(frame)));
@@ -82,7 +78,7 @@ impl Builder<'_> {
             return None;
         };
         let along = vector(&it.along);
-        let frame = ProfileFrame::across(vector(&it.origin), along, vector(&it.x)).map_err(told);
+        let frame = ProfileFrame::across(self.point(&it.origin), along, vector(&it.x)).map_err(told);
         self.keep(frame, it.place).map(|frame| extruded(segments, frame, along.norm()))
     }
 
@@ -99,10 +95,16 @@ impl Builder<'_> {
             let what = format!("`{}`: {} triangles of no area are left out", keys.file.value, thin.len());
             self.found.push(Diagnostic::note(what).at(keys.file.place));
         }
-        let origin = vector(&keys.origin);
+        let origin = self.point(&keys.origin);
         let corners = |corners: [Vec3; 3]| corners.map(|x| x * keys.scale + origin).to_vec();
         let facets = polygons(triangles.into_iter().map(corners)).map_err(asperity_core::Error::input);
         self.keep(facets, keys.file.place)
+    }
+
+    fn of_nodes(&self, keys: &FacetKeys) -> Result<Facets, String> {
+        let node = |&number: &usize| keys.nodes.get(number - 1).map(|x| self.point(x));
+        let face = |face: &Spot<Vec<usize>>| face.value.iter().filter_map(node).collect();
+        polygons(keys.faces.value.iter().map(face))
     }
 
     /// Whether a tool can be used.
@@ -123,12 +125,6 @@ impl Builder<'_> {
         }
         sound
     }
-}
-
-fn of_nodes(keys: &FacetKeys) -> Result<Facets, String> {
-    let node = |&number: &usize| keys.nodes.get(number - 1).map(|x| vector(x));
-    let face = |face: &Spot<Vec<usize>>| face.value.iter().filter_map(node).collect();
-    polygons(keys.faces.value.iter().map(face))
 }
 
 /// What to do about a finding whose sentence does not say it.

@@ -119,6 +119,7 @@ impl Builder<'_> {
 
     /// A place of the mesh.
     fn words(&self, x: &Vec3) -> String {
+        let x = *x + self.site.mesh.origin;
         match self.plane() {
             true => format!("({:.4}, {:.4})", x[0], x[1]),
             false => format!("({:.4}, {:.4}, {:.4})", x[0], x[1], x[2]),

@@ -28,15 +28,23 @@ impl Builder<'_> {
             self.found.push(Diagnostic::error(what).at(keys.place).help(help));
             return None;
         };
-        let ((segments, places), reference) = (self.segments(profile, keys)?, self.reference(name, keys, 2)?);
+        let (segments, places) = self.segments(profile, keys, self.site.mesh.origin)?;
+        let reference = self.reference(name, keys, 2)?;
         let tool = ProfileTool::new(&name.text, vec![segments], reference);
         let axisymmetric = self.site.space == Space::Axisymmetric;
         self.judge(&tool, (&places, profile.place), axisymmetric).then(|| Arc::new(tool))
     }
 
-    /// The segments of a profile, with its fillets.
-    pub(super) fn drafts(&mut self, profile: &Spot<Vec<SegmentKeys>>, keys: &ToolKeys) -> Option<Vec<Draft>> {
-        let draft = |(i, segment): (usize, &SegmentKeys)| (i, segment.kind, segment.nodes.clone());
+    /// The segments of a profile, from an origin and with its fillets.
+    pub(super) fn drafts(
+        &mut self,
+        profile: &Spot<Vec<SegmentKeys>>,
+        keys: &ToolKeys,
+        origin: Vec3,
+    ) -> Option<Vec<Draft>> {
+        let draft = |(i, segment): (usize, &SegmentKeys)| {
+            (i, segment.kind, segment.nodes.iter().map(|&node| node - origin).collect())
+        };
         let drafts: Vec<Draft> = profile.value.iter().enumerate().map(draft).collect();
         match keys.fillet {
             Some(fillet) => self.keep(rounded(drafts, fillet.value).map_err(asperity_core::Error::input), fillet.place),
@@ -45,9 +53,14 @@ impl Builder<'_> {
     }
 
     /// The same, built, and where each is said.
-    pub(super) fn segments(&mut self, profile: &Spot<Vec<SegmentKeys>>, keys: &ToolKeys) -> Option<Segments> {
+    pub(super) fn segments(
+        &mut self,
+        profile: &Spot<Vec<SegmentKeys>>,
+        keys: &ToolKeys,
+        origin: Vec3,
+    ) -> Option<Segments> {
         let (mut segments, mut places) = (Vec::new(), Vec::new());
-        for (i, kind, nodes) in self.drafts(profile, keys)? {
+        for (i, kind, nodes) in self.drafts(profile, keys, origin)? {
             let place = profile.value[i].place;
             segments.push(self.keep(kind.build(&nodes).map_err(asperity_core::Error::input), place));
             places.push(place);
@@ -57,14 +70,14 @@ impl Builder<'_> {
 
     /// The reference point of a tool, which must have as many coordinates as the space.
     pub(super) fn reference(&mut self, name: &Name, keys: &ToolKeys, dimension: usize) -> Option<Vec3> {
-        let Some(reference) = &keys.reference else { return Some(Vec3::zero()) };
+        let Some(reference) = &keys.reference else { return Some(self.point(&[])) };
         if reference.len() != dimension {
             let has = reference.len();
             let what = format!("`tool.{name}.reference` must have {dimension} coordinates in this space; it has {has}");
             self.refuse(what, reference.place);
             return None;
         }
-        Some(Vec3(std::array::from_fn(|i| reference.get(i).copied().unwrap_or(0.0))))
+        Some(self.point(reference))
     }
 
     /// Whether a tool can be used; what is found is shown at its segments.

@@ -22,11 +22,11 @@ table! {
 }
 
 impl AxesKeys {
-    /// The axes; none where the axis has no direction.
-    pub fn axes(&self) -> Option<CylinderAxes> {
+    /// The axes, from an origin; none where the axis has no direction.
+    pub fn axes(&self, from: Vec3) -> Option<CylinderAxes> {
         let vector = |of: &[f64]| Vec3(std::array::from_fn(|i| of[i]));
         let along = vector(&self.along);
         let turn = (self.about - 1, self.angle.to_radians());
-        (along.norm() > 0.0).then(|| CylinderAxes { origin: vector(&self.origin), along: along.unit(), turn })
+        (along.norm() > 0.0).then(|| CylinderAxes { origin: vector(&self.origin) - from, along: along.unit(), turn })
     }
 }

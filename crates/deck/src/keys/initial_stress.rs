@@ -48,13 +48,13 @@ table! {
 }
 
 impl InitialStressKeys {
-    /// The field.
-    pub fn field(&self) -> InitialStress {
+    /// The field, of heights from an origin.
+    pub fn field(&self, from: f64) -> InitialStress {
         let or_zero = |shear: Option<Spot<f64>>| shear.map_or(0.0, |shear| shear.value);
         match self {
             Self::Uniform(s) => InitialStress::Uniform([s.xx, s.yy, s.zz, s.xy, or_zero(s.yz), or_zero(s.xz)]),
             Self::Geostatic(Geostatic { surface, surcharge, unit_weight, k0, .. }) => InitialStress::Geostatic {
-                surface: *surface,
+                surface: surface - from,
                 surcharge: *surcharge,
                 unit_weight: *unit_weight,
                 k0: *k0,

@@ -2,7 +2,7 @@
 //! motion; `displacement` moves them ("Warp By Vector").
 
 use super::quantities::Source;
-use super::quantity::{Frame, Number, Quantity, QuantityPlace};
+use super::quantity::{Frame, Number, Quantity, QuantityPlace, REFERENCE_POSITION};
 use super::vtk::{Cells, DataArray, Grid, Values, vtk_order};
 use asperity_core::Error;
 use asperity_core::mesh::Mesh;
@@ -36,7 +36,7 @@ impl BodyGrid {
         let groups = mesh.groups.iter();
         let with_cells = groups.clone().filter(|(_, group)| !group.cells.is_empty());
         Ok(Self {
-            points: mesh.points.iter().map(|p| p.0).collect(),
+            points: (0..mesh.points.len()).map(|node| mesh.place(node).0).collect(),
             cells: Cells::of_mesh(mesh)?,
             point_masks: groups.map(|(name, group)| mask(name, mesh.points.len(), &group.nodes)).collect(),
             cell_masks: with_cells.map(|(name, group)| mask(name, mesh.cell_count(), &group.cells)).collect(),
@@ -54,8 +54,7 @@ impl BodyGrid {
 
 /// One vertex for each integration point of a place, with the quantities there, which are taken out of the frame.
 pub fn cloud(frame: &mut Frame, place: QuantityPlace) -> Grid {
-    const POSITION: &str = "reference_position";
-    let (positions, others): (Vec<_>, Vec<_>) = frame.take(place).partition(|q| q.name == POSITION);
+    let (positions, others): (Vec<_>, Vec<_>) = frame.take(place).partition(|q| q.name == REFERENCE_POSITION);
     let points = positions.first().map_or(vec![], |q| q.values.as_chunks().0.to_vec());
     Grid {
         time: frame.time,
@@ -91,7 +90,7 @@ pub fn surfaces(source: &Source, frame: &mut Frame) -> Result<Grid, Error> {
         for &node in &nodes {
             if place[node] == usize::MAX {
                 place[node] = grid.points.len();
-                grid.points.push(mesh.points[node].0);
+                grid.points.push(mesh.place(node).0);
                 displacement.extend(source.displacement(node));
             }
         }
@@ -114,7 +113,7 @@ pub fn tools(source: &Source, frame: &Frame) -> Grid {
         for (before, now) in chains {
             let first = grid.points.len();
             displacement.extend(before.iter().zip(&now).flat_map(|(before, now)| (*now - *before).0));
-            grid.points.extend(before.iter().map(|p| p.0));
+            grid.points.extend(before.iter().map(|&p| (p + source.parts.mesh.origin).0));
             for end in first + 1..grid.points.len() {
                 grid.cells.push(3, [end - 1, end]);
                 number.push(index as i64);
@@ -135,7 +134,7 @@ fn solid_tool(source: &Source, index: usize, grid: &mut Grid, (displacement, num
     let before = tool.surface(&Pose::default(), SOLID_SAGITTA * tool.size());
     let first = grid.points.len();
     for point in &before.points {
-        grid.points.push(point.0);
+        grid.points.push((*point + source.parts.mesh.origin).0);
         displacement.extend((pose.place(tool.reference(), *point) - *point).0);
     }
     for (_, corners) in &before.tiles {

@@ -4,6 +4,10 @@
 
 use super::certificate::Reading;
 use asperity_core::Error;
+use asperity_core::tensor::Vec3;
+
+/// Name of where a point or a face was before any motion.
+pub const REFERENCE_POSITION: &str = "reference_position";
 
 /// Where the values of a quantity live.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -196,6 +200,13 @@ impl Frame {
         }
         self.quantities.push(quantity);
         Ok(())
+    }
+    /// Moves what says where things are by the origin of a mesh.
+    pub(super) fn shift(&mut self, origin: Vec3) {
+        self.readings.iter_mut().filter_map(|reading| reading.position.as_mut()).for_each(|x| *x += origin);
+        for quantity in self.quantities.iter_mut().filter(|quantity| quantity.name == REFERENCE_POSITION) {
+            quantity.values.as_chunks_mut::<3>().0.iter_mut().for_each(|x| *x = (Vec3(*x) + origin).0);
+        }
     }
     /// Hands in a reading for the certificate.
     pub fn certify(&mut self, reading: Reading) {

@@ -3,6 +3,7 @@
 
 use super::energy::of_bodies;
 use super::{Source, Touching, surface};
+use crate::output::quantity::REFERENCE_POSITION;
 use crate::output::{Frame, Quantity, QuantityPlace, Reading, Unit, Width};
 use asperity_core::Error;
 use asperity_core::contact::{ContactRecord, PointStatus, second_name};
@@ -165,7 +166,7 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     let before = reference().flat_map(|x| x.0).collect();
     let number = all.iter().enumerate().flat_map(|(i, seen)| seen.records.iter().map(move |_| i as f64)).collect();
     let length = |name: &str, values| Quantity::new(name, Unit::Length, QuantityPlace::Contact, Width::Vector, values);
-    frame.push(length("reference_position", before))?;
+    frame.push(length(REFERENCE_POSITION, before))?;
     frame.push(length("displacement", moved))?;
     frame.push(Quantity::integer("contact", QuantityPlace::Contact, number))?;
     let status = records().map(|record| f64::from(record.status as u8)).collect();
@@ -233,7 +234,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     let vectors = [
         ("force", Unit::Force, Width::Vector, sum(&ContactRecord::force)),
         ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.center() - pole).cross(r.force()))),
-        ("center", Unit::Length, Width::Vector, center),
+        ("center", Unit::Length, Width::Vector, center + source.parts.mesh.origin),
     ];
     let least = closed().map(|r| r.last_dissipated * r.area).reduce(f64::min).unwrap_or(0.0);
     let refused = seen.contact.false_contacts(&source.state.u) as f64;

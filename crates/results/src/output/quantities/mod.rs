@@ -106,6 +106,7 @@ impl Source<'_> {
     pub fn gather(&self) -> Result<Frame, Error> {
         let mut frame = Frame::new(self.step + 1, self.state.increment, self.state.time);
         ALL.iter().try_for_each(|report| report(self, &mut frame))?;
+        frame.shift(self.parts.mesh.origin);
         Ok(frame)
     }
     /// Displacement of a node.

@@ -3,6 +3,7 @@
 
 use super::Source;
 use crate::output::average::NodalMean;
+use crate::output::quantity::REFERENCE_POSITION;
 use crate::output::{Frame, Quantity, QuantityPlace, Unit, Width};
 use asperity_core::Error;
 use asperity_core::material::{Variable, VariableKind};
@@ -30,7 +31,7 @@ fn report_points(source: &Source, points: &[Point], frame: &mut Frame) -> Result
     let gauss = |name: &str, unit, width, values| Quantity::new(name, unit, QuantityPlace::Gauss, width, values);
     let vector = |of: fn(&PointRecord) -> [f64; 3]| gathered(points, |p| of(&p.record));
     let number = |of: &dyn Fn(&Point) -> usize| points.iter().map(|p| of(p) as f64).collect::<Vec<_>>();
-    frame.push(gauss("reference_position", Unit::Length, Width::Vector, vector(|r| r.reference.0)))?;
+    frame.push(gauss(REFERENCE_POSITION, Unit::Length, Width::Vector, vector(|r| r.reference.0)))?;
     frame.push(gauss("displacement", Unit::Length, Width::Vector, vector(|r| (r.position - r.reference).0)))?;
     frame.push(gauss("volume", Unit::Volume, Width::Scalar, points.iter().map(|p| p.record.volume).collect()))?;
     frame.push(Quantity::integer("cell", QuantityPlace::Gauss, number(&|p| p.record.cell)))?;

@@ -121,8 +121,8 @@ fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
     let on_few = together(&on_few).map(|contacts| {
         let most = on_few.iter().fold(0.0, |most: f64, (_, points)| most.max(*points));
         format!(
-            "{contacts} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves: under a round \
-             body it may be wrong by half; a finer surface gives it more"
+            "{contacts} rested on {most} points at most beside one another, fewer than the {few} of a force that changes smoothly as it moves: \
+             under a round body it may be wrong by half, and by far where bodies fit into each other; a finer surface gives it more"
         )
     });
     never.into_iter().chain(on_few).collect()

@@ -130,7 +130,7 @@ pub static FIGURES: &[Figure] = &[
         "a finer surface, the flat side as `surface` with roles = \"given\", or form = \"field\" where it is not: forces between bodies follow \
          the normals of the surface, which are not those of the target at an edge that is tilted",
     ),
-    largest("closed_points", "closed points, at most"),
+    largest("closed_points", "closed points beside one another, at most"),
     largest("least_dissipation", "least dissipation").folded(Fold::Least),
     largest("facet_ratio", "pressure that facets stand for").limited(
         "1.0",

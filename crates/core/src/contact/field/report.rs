@@ -226,6 +226,30 @@ impl FieldContact {
         (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)))
     }
 
+    /// The most points that are closed beside one another; tips and edges lie beside any.
+    pub fn largest_patch(&self, history: &History) -> usize {
+        let surface = self.surface();
+        let (mut open, mut apart) = (vec![true; surface.nodes.len()], 0);
+        for slot in (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0) {
+            match self.node_of(slot) {
+                Some(node) => open[node] = false,
+                None => apart += 1,
+            }
+        }
+        let mut largest = 0;
+        for first in 0..open.len() {
+            let (mut count, mut reached) = (0, vec![first]);
+            while let Some(node) = reached.pop() {
+                if !std::mem::replace(&mut open[node], true) {
+                    count += 1;
+                    reached.extend(surface.neighbours(node));
+                }
+            }
+            largest = largest.max(count);
+        }
+        largest + apart
+    }
+
     /// By how much the pressure changes from node to node where all around presses, inside the surface: the differences from the mean of the
     /// neighbours over the pressures, as means, in which a single peak counts little; and the node at which it changes most. None of few nodes.
     pub fn roughness(&self, history: &History) -> Option<(f64, usize)> {

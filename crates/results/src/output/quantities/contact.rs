@@ -301,7 +301,8 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
         let work = seen.contact.share() * seen.closed().map(work).sum::<f64>();
         frame.certify(seen.reading("penalty_energy", work).over(bodies.stored + bodies.dissipated));
     }
-    frame.certify(seen.reading("closed_points", seen.closed().count() as f64));
+    let together = seen.contact.largest_patch(seen.history).unwrap_or_else(|| seen.closed().count());
+    frame.certify(seen.reading("closed_points", together as f64));
     if let Some(least) = seen.closed().map(|record| record.last_dissipated * record.area).reduce(f64::min) {
         frame.certify(seen.reading("least_dissipation", least));
     }

@@ -122,6 +122,13 @@ impl Touching<'_> {
             Self::Field(_) => None,
         }
     }
+    /// The most points of a field that are closed beside one another.
+    pub fn largest_patch(&self, history: &History) -> Option<usize> {
+        match self {
+            Self::Points(_) => None,
+            Self::Field(contact) => Some(contact.largest_patch(history)),
+        }
+    }
     /// By how much the pressure of a field changes from node to node, and where most.
     pub fn roughness(&self, history: &History) -> Option<(f64, usize)> {
         match self {

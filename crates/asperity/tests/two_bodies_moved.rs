@@ -100,3 +100,37 @@ fn sliding_over_edges_drags_evenly() {
         assert!((two[1] - two[0]).abs() < 0.01 * limit, "{two:?} of {limit}");
     }
 }
+
+/// Nodes of a soft base, which carry, come under a stiff block that slides over it and leave its sight within increments of most of a face:
+/// what they slipped until then is friction's work as well.
+#[test]
+fn what_leaves_sight_keeps_its_friction_work() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.base.rectangle = { from = [0.0, -4.0], to = [23.0, 0.0], cells = [22, 2], cell = "quad4" }
+mesh.part.block.rectangle = { from = [1.0, 0.0], to = [5.0, 2.0], cells = [5, 2], cell = "quad4" }
+material.soft.elastic = { young = 2e3, poisson = 0.3 }
+material.stiff.elastic = { young = 200e3, poisson = 0.3 }
+body.base.material = "soft"
+body.block.material = "stiff"
+rigid.head.group = "block.top"
+contact.foot = { surface = "block.bottom", target = "base.top", law.coulomb = { friction = 0.3 } }
+[[step]]
+name = "press"
+displacement."base.bottom" = { x = 0.0, y = 0.0 }
+load.head.y = -4.0
+[[step]]
+name = "slide"
+increments = { largest = 0.05, first = 0.05 }
+motion.head.x = 16.0
+"#;
+    let model = model(deck, &[]);
+    let keep = run(&model);
+    assert!(keep.states.iter().all(|state| state.jumps == 0));
+    let columns = columns(&model, &keep);
+    let last = |name: &str| *columns[name].last().unwrap();
+    let (friction, external) = (last("energy.friction"), last("energy.external"));
+    assert!((external - 0.3 * 4.0 * 16.0).abs() < 0.02 * external, "{external}");
+    assert!((friction - external).abs() < 0.01 * external, "{friction} of {external}");
+}

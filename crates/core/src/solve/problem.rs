@@ -40,6 +40,11 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Whether a contact bears in a state with these energies of the terms: what it holds may let go, and snap to and fro.
+    pub(super) fn contact_bears(&self, energies: &[Energies]) -> bool {
+        self.terms.iter().zip(energies).any(|(term, energies)| term.bends() && energies.stored > 0.0)
+    }
+
     /// The state before the first increment.
     pub fn initial_state(&self) -> State {
         let count = self.dofs.count();

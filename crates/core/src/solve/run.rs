@@ -193,7 +193,7 @@ impl<'a> Run<'a> {
                         continue;
                     }
                     let may_return = returns < RETURNS && !relaxing && step.arc_length.is_none() && step.may_halve(dt);
-                    let bears = self.contact_bears();
+                    let bears = self.problem.contact_bears(&self.state.energies);
                     if may_return && !bears && self.goes_back(step, &converged, dt) {
                         record.failure =
                             Some("it goes back on the way that the increments before it went, as no path does".into());
@@ -224,9 +224,11 @@ impl<'a> Run<'a> {
                         if let Some(turn) = record.turn.take_if(|_| step.arc_length.is_none()) {
                             record.turn = self.look_again(turn, (&record, &converged.u), before.clone());
                         }
-                        let goes_on = self.state.last_dt > 0.0 && keeps_contact(&record);
+                        // A contact that closes in this increment bears at its end.
+                        let closes = !bears && self.problem.contact_bears(&converged.evaluation.energies);
+                        let goes_on = closes || self.state.last_dt > 0.0 && keeps_contact(&record);
                         let crosses = |turn: &Turn| {
-                            let path = !bears || goes_on && turn.deforms(self.problem);
+                            let path = !(bears || closes) || goes_on && turn.deforms(self.problem);
                             path && turn.crosses(&self.state, (&converged.u, dt), self.problem.size)
                         };
                         if may_return && record.turn.as_ref().is_some_and(crosses) {
@@ -348,12 +350,6 @@ impl<'a> Run<'a> {
             self.state.arc = 0.0;
         }
         anew
-    }
-
-    /// Whether a contact bears in the accepted state: what it holds may let go, and snap to and fro.
-    fn contact_bears(&self) -> bool {
-        let mut terms = self.problem.terms.iter().zip(&self.state.energies);
-        terms.any(|(term, energies)| term.bends() && energies.stored > 0.0)
     }
 
     /// Whether an increment goes back on the way that those before it went, farther than it would have gone on and than it is driven, while

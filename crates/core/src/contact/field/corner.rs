@@ -296,7 +296,7 @@ fn place_along(face: &FieldFace, xi: [f64; 2], part: f64) -> [f64; 2] {
 
 impl FieldContact {
     /// The surface, or else a target of bodies.
-    fn side(&self, own: bool) -> Option<&FieldSurface> {
+    pub(super) fn side(&self, own: bool) -> Option<&FieldSurface> {
         if own { Some(&self.parts.surface) } else { self.parts.target.as_faces().map(|faces| &faces.surface) }
     }
 

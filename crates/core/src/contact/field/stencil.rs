@@ -167,6 +167,11 @@ impl<'a> StencilInPlace<'a> {
         self.found.supports[self.slot].parted
     }
 
+    /// How far such a node has slid along its shear, where it slipped.
+    pub fn slid(&self) -> [f64; 2] {
+        self.found.supports[self.slot].slid
+    }
+
     /// Whether the target came through the body here.
     pub fn is_through(&self) -> bool {
         self.found.supports[self.slot].through
@@ -226,9 +231,10 @@ impl<'a> StencilInPlace<'a> {
         let (mut all, mut nearest) = (Vec3::zero(), Vec3::zero());
         for &NodePoint { of: (number, k), weight, .. } in &sums.points {
             let point = &sums.patches[number].points[k];
-            let facing = normal(number, point) * weight;
-            all += facing;
-            nearest += facing * (-sums.y[0] - point.gap).max(0.0).powi(2);
+            let facing = normal(number, point);
+            all += facing * weight;
+            // Dual functions are negative in part.
+            nearest += facing * (weight.abs() * (-sums.y[0] - point.gap).max(0.0).powi(2));
         }
         if is_narrow && target.is_some() && nearest.norm() > 0.0 { nearest.unit() } else { all.unit() }
     }

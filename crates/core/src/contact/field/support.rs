@@ -29,11 +29,13 @@ pub struct Support {
     pub stretch: f64,
     /// Gap of a node that was closed and has gone so far that it sees nothing.
     pub parted: f64,
+    /// How far it has slid along its shear over what it saw, if it slipped.
+    pub slid: [f64; 2],
 }
 
 impl Default for Support {
     fn default() -> Self {
-        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0, parted: 0.0 }
+        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0, parted: 0.0, slid: [0.0; 2] }
     }
 }
 

@@ -146,10 +146,12 @@ pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let free = [FailureKind::Free, FailureKind::Pushed, FailureKind::Singular, FailureKind::Hourglass];
     let free = course.kind().is_some_and(|kind| free.contains(&kind)) || course.share(&free) > 0.3;
     let adrift = |body: &BodyFacts| !body.held && course.never_closed();
-    // What nothing but a smooth surface touches slides from the beginning, however that shows.
+    // What nothing but a smooth surface touches slides from the beginning, however that shows, or as soon as a load makes it.
+    let loaded = facts.steps.get(course.step).is_some_and(|step| !step.loads.is_empty());
     let smooth = |body: &BodyFacts| {
         let of_body = |contact: &&ContactFacts| contact.bodies.contains(&body.name);
-        course.increments == 0 && facts.contacts.iter().filter(of_body).all(|c| c.friction.is_none_or(|f| f == 0.0))
+        (course.increments == 0 || loaded)
+            && facts.contacts.iter().filter(of_body).all(|c| c.friction.is_none_or(|f| f == 0.0))
     };
     let body = facts.bodies.iter().find(|body| !body.unheld.is_empty() && (free || adrift(body) || smooth(body)))?;
     course.kind()?;
@@ -165,10 +167,12 @@ pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
         ),
         None => "no friction".into(),
     };
+    // It may be held by what it leans on all around.
+    let sure = free || adrift(body) || course.increments == 0;
     Some(
         finding(
             "slides",
-            0.84,
+            if sure { 0.84 } else { 0.6 },
             format!("body '{}' slides on what it touches: friction is all that could hold it", body.name),
         )
         .shown(&course.reason)

@@ -13,6 +13,7 @@ use crate::contact::field::space::{Spread, spread};
 use crate::contact::field::spot::{GAUSS, IntervalPoint};
 use crate::contact::field::stencil::StencilInPlace;
 use crate::contact::record::entry;
+use crate::interface::Status;
 use crate::tensor::Vec3;
 
 impl FieldAttempt<'_> {
@@ -175,5 +176,29 @@ impl FieldAttempt<'_> {
             }
             None => -(old[entry::PENETRATION] + self.closure(slot)),
         }
+    }
+
+    /// By how much a node that slipped has slid over the face of a body that it saw at the accepted state, along its shear, where it sees none any
+    /// more.
+    pub(super) fn slid_out_of_sight(&self, slot: usize, node: usize, u: &[f64]) -> [f64; 2] {
+        let (old, parts) = (self.history.slot(slot), &self.contact.parts);
+        let shear = [old[entry::SHEAR], old[entry::SHEAR2]];
+        let size = shear[0].hypot(shear[1]);
+        let slips = size > 0.0 && old[entry::STATUS] == f64::from(Status::Slip as u8);
+        let TargetInPlace::Faces(target) = &self.before.target else { return [0.0; 2] };
+        let number = old[entry::SEGMENT] as usize;
+        let Some(face) = self.contact.face_of(false, number).filter(|_| slips && old[entry::SEGMENT] >= 0.0) else {
+            return [0.0; 2];
+        };
+        let moved = |node: usize| {
+            let dofs = parts.dofs.displacements(node);
+            moved(Vec3::zero(), &u[dofs.clone()]) - moved(Vec3::zero(), &self.accepted[dofs])
+        };
+        let shape = face.shape(face.middle());
+        let carried = face.nodes.iter().zip(shape.n).fold(Vec3::zero(), |sum, (&node, n)| sum + moved(node) * n);
+        let way = moved(parts.surface.nodes[node].node) - carried;
+        let n = self.contact.side(false).map_or(Vec3::zero(), |seen| seen.middle_normal(face, target.placed(number)));
+        let slid = (way - n * way.dot(n)).norm();
+        shear.map(|component| component / size * slid)
     }
 }

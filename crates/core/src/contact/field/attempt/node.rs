@@ -92,6 +92,11 @@ impl FieldAttempt<'_> {
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
             self.leave(slot, old, new);
+            let (areas, past) = ([old[entry::XI] * old[entry::HALF], 0.0], self.past(slot, old[entry::HALF]));
+            if old[entry::STATUS] > 0.0 {
+                let terms = (&*self.law, &past, old);
+                account(terms, (&contact.parts.options, self.at), (areas, 0.0), (None, stencil.slid()), local);
+            }
             local.energies.across = -across(old, stencil.parted());
             self.add_fracture(slot, [old[entry::XI] * old[entry::HALF], old[entry::HALF]], local);
             return Ok(0);

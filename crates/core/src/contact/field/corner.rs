@@ -46,6 +46,8 @@ struct Touchable {
     gap: f64,
     n: Vec3,
     range: [f64; 2],
+    /// and below which, the other way, it cuts into it.
+    dips: f64,
     /// Whether a field that bears lies flat on it there, and the corner does not bear yet.
     flat: bool,
 }
@@ -53,6 +55,11 @@ struct Touchable {
 /// Angles, beyond those by which both sides bend, of the lower flank to what it touches between which a corner takes over from the field: a block that
 /// lies flat is strained by less than the first.
 const RISES: [f64; 2] = [0.02, 0.08];
+/// The same at most over the strain `p / E*` of what bears there: a flank at a larger angle is pressed flat over a small part of a face only, and what
+/// is slender bends away from the corner at whatever load. Beneath the corner of a flat punch the angle is 3 to 6 of it.
+const STRAINS: [f64; 2] = [16.0, 64.0];
+/// and at least: the angle that sides which lie flat may have by their meshes.
+const MESHED: [f64; 2] = [1e-5, 2e-5];
 /// Part of a flank that lies flat on what it touches and then ends over it between which the field has too little of it to bear,
 const ENDS: [f64; 2] = [0.05, 0.25];
 /// and at how many places that is looked at.
@@ -145,9 +152,10 @@ impl Configuration<'_> {
             let held = face.holds(hit.s, BESIDE) && hit.gap <= far && -hit.gap <= deepest;
             let near = hit.gap.abs() <= PAST * corner.size;
             let beyond = near && !face.holds(hit.s, 0.0) && face.holds(hit.s, FARTHEST);
-            let range = RISES.map(|angle| angle + corner.bend + other.bends[f]);
+            let range = self.angles((number, corner), f, Some(history));
+            let dips = RISES[0] + corner.bend + other.bends[f];
             let s = face.nearest(hit.s);
-            let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range, flat };
+            let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range, dips, flat };
             before.extend(held.then_some(touchable));
             let end = face.shape(s).value(placed.nodes());
             past.extend(beyond.then_some(Touchable { gap: (c - end).norm(), ..touchable }));
@@ -198,7 +206,7 @@ impl Configuration<'_> {
 
     /// The part that the corners of a face of the surface have of what they stand for over a face of the target: none at a corner of the body
     /// from which the face rises.
-    pub(super) fn left(&self, patch: &Patch) -> [f64; CORNERS] {
+    pub(super) fn left(&self, patch: &Patch, history: Option<&History>) -> [f64; CORNERS] {
         let (mut left, contact) = ([1.0; CORNERS], self.contact);
         if !contact.parts.surface.creased[patch.face] {
             return left;
@@ -207,14 +215,24 @@ impl Configuration<'_> {
             return left;
         };
         let n = seen.middle_normal(face, placed);
-        for corner in contact.corners.iter().filter(|corner| corner.own) {
+        for (number, corner) in contact.corners.iter().enumerate().filter(|(_, corner)| corner.own) {
             for flank in corner.flanks.iter().filter(|flank| flank.face == patch.face) {
                 let (Some(at), Some(c)) = (flank.at, self.place_of(corner)) else { continue };
-                let range = RISES.map(|angle| angle + corner.bend + seen.bends[patch.target]);
+                let range = self.angles((number, corner), patch.target, history);
                 left[at] = 1.0 - self.rises((corner, flank), c, (n, range))[1];
             }
         }
         left
+    }
+
+    /// The angles between which the lower flank of a corner rises from a face of the other side.
+    fn angles(&self, (number, corner): (usize, &BodyCorner), f: usize, history: Option<&History>) -> [f64; 2] {
+        let contact = self.contact;
+        let strain = history.map_or(f64::INFINITY, |history| {
+            contact.pressure_at((number, corner), f, history) / contact.parts.options.modulus
+        });
+        let bend = corner.bend + contact.side(!corner.own).map_or(0.0, |other| other.bends[f]);
+        std::array::from_fn(|k| RISES[k].min(STRAINS[k] * strain).max(MESHED[k]) + bend)
     }
 
     /// The angle by which a flank rises from a face with this normal, and how much of the way between two angles that is.
@@ -243,7 +261,7 @@ impl Configuration<'_> {
             let Some((face, placed)) = self.of_side(corner.own, flank.face) else { return 0.0 };
             let along = |part: f64| face.shape(place_along(face, flank.xi, part)).value(placed.nodes());
             let [rise, rises] = self.rises((corner, flank), c, (on.n, on.range));
-            if rises == 1.0 || rise < -on.range[0] {
+            if rises == 1.0 || rise < -on.dips {
                 return rises;
             }
             let end = (1..=PLACES).map(|k| ENDS[1] * k as f64 / PLACES as f64).find(|&part| !lies(along(part)));
@@ -325,6 +343,24 @@ impl FieldContact {
         let mut nodes = flanks.filter_map(|flank| Some(self.parts.surface.field[flank.face][flank.at?]));
         let own = (first..first + WAYS).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
         own || nodes.any(|node| self.node_bears(node, history))
+    }
+
+    /// The pressure that bears at a corner over a face of the other side, as a mean over the faces around, its own included.
+    fn pressure_at(&self, (number, corner): (usize, &BodyCorner), f: usize, history: &History) -> f64 {
+        let (surface, first) = (&self.parts.surface, self.nodal_slots() + WAYS * number);
+        let nodes: Vec<usize> = match corner.own {
+            true => corner.flanks.iter().filter_map(|flank| Some(surface.field[flank.face][flank.at?])).collect(),
+            false => surface.field[f][..surface.faces[f].corners()].to_vec(),
+        };
+        let force = |slot: usize| {
+            let values = history.slot(slot);
+            values[entry::PRESSURE].max(0.0) * values[entry::XI] * values[entry::HALF]
+        };
+        let pieces = |node: usize| (0..self.pieces).map(move |piece| self.slot(node, piece));
+        let of_nodes = nodes.iter().flat_map(|&node| pieces(node)).map(force).sum::<f64>();
+        let of_corner = (first..first + WAYS).map(force).sum::<f64>();
+        let area = nodes.iter().map(|&node| self.areas[node]).fold(0.0, f64::max).max(corner.area);
+        (of_nodes + of_corner) / area
     }
 
     fn node_bears(&self, node: usize, history: &History) -> bool {

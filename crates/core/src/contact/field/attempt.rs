@@ -97,7 +97,7 @@ impl FieldAttempt<'_> {
 
     fn search(&self, u: &[f64]) -> FieldSearch {
         let now = Configuration { duals: &self.duals, ..self.in_place(u) };
-        let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
+        let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot), None);
         let list_touched =
             |now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>| self.list_touched(now, patch, nodes);
         let mut found = self.contact.find(

@@ -24,6 +24,7 @@ use super::surface::FieldSurface;
 use crate::contact::record::entry;
 use crate::system::History;
 use crate::tensor::{BoundingBox, Vec3};
+use std::ops::Range;
 
 /// How a corner touches in an increment, one of the [`WAYS`].
 #[derive(Debug, Clone, Copy, Default)]
@@ -80,6 +81,11 @@ const PAST: f64 = 0.3;
 const FARTHEST: f64 = 1.0;
 /// Depth over that size to which no corner comes unseen in an increment.
 const UNSEEN: f64 = 0.1;
+
+/// The angles between which a flank lies flat no more, of those of what is pressed flat all over a face, under such a strain.
+pub(super) fn pressed_flat(angles: [f64; 2], strain: f64) -> [f64; 2] {
+    std::array::from_fn(|k| angles[k].min(STRAINS[k] * strain).max(MESHED[k]))
+}
 
 impl Configuration<'_> {
     /// A face of a side, and where it is: of the surface, or else of the target.
@@ -152,8 +158,13 @@ impl Configuration<'_> {
             let held = face.holds(hit.s, BESIDE) && hit.gap <= far && -hit.gap <= deepest;
             let near = hit.gap.abs() <= PAST * corner.size;
             let beyond = near && !face.holds(hit.s, 0.0) && face.holds(hit.s, FARTHEST);
-            let range = self.angles((number, corner), f, Some(history));
-            let dips = RISES[0] + corner.bend + other.bends[f];
+            // A corner of the surface has the stress of its node, which the field hands over at once.
+            let strain = match corner.own {
+                true => f64::INFINITY,
+                false => self.contact.strain_of_corner((number, corner), f, history),
+            };
+            let bend = corner.bend + other.bends[f];
+            let (range, dips) = (pressed_flat(RISES, strain).map(|angle| angle + bend), RISES[0] + bend);
             let s = face.nearest(hit.s);
             let touchable = Touchable { face: f, s, gap: hit.gap, n: hit.normal(), range, dips, flat };
             before.extend(held.then_some(touchable));
@@ -206,7 +217,7 @@ impl Configuration<'_> {
 
     /// The part that the corners of a face of the surface have of what they stand for over a face of the target: none at a corner of the body
     /// from which the face rises.
-    pub(super) fn left(&self, patch: &Patch, history: Option<&History>) -> [f64; CORNERS] {
+    pub(super) fn left(&self, patch: &Patch) -> [f64; CORNERS] {
         let (mut left, contact) = ([1.0; CORNERS], self.contact);
         if !contact.parts.surface.creased[patch.face] {
             return left;
@@ -215,24 +226,14 @@ impl Configuration<'_> {
             return left;
         };
         let n = seen.middle_normal(face, placed);
-        for (number, corner) in contact.corners.iter().enumerate().filter(|(_, corner)| corner.own) {
+        for corner in contact.corners.iter().filter(|corner| corner.own) {
             for flank in corner.flanks.iter().filter(|flank| flank.face == patch.face) {
                 let (Some(at), Some(c)) = (flank.at, self.place_of(corner)) else { continue };
-                let range = self.angles((number, corner), patch.target, history);
+                let range = RISES.map(|angle| angle + corner.bend + seen.bends[patch.target]);
                 left[at] = 1.0 - self.rises((corner, flank), c, (n, range))[1];
             }
         }
         left
-    }
-
-    /// The angles between which the lower flank of a corner rises from a face of the other side.
-    fn angles(&self, (number, corner): (usize, &BodyCorner), f: usize, history: Option<&History>) -> [f64; 2] {
-        let contact = self.contact;
-        let strain = history.map_or(f64::INFINITY, |history| {
-            contact.pressure_at((number, corner), f, history) / contact.parts.options.modulus
-        });
-        let bend = corner.bend + contact.side(!corner.own).map_or(0.0, |other| other.bends[f]);
-        std::array::from_fn(|k| RISES[k].min(STRAINS[k] * strain).max(MESHED[k]) + bend)
     }
 
     /// The angle by which a flank rises from a face with this normal, and how much of the way between two angles that is.
@@ -345,22 +346,23 @@ impl FieldContact {
         own || nodes.any(|node| self.node_bears(node, history))
     }
 
-    /// The pressure that bears at a corner over a face of the other side, as a mean over the faces around, its own included.
-    fn pressure_at(&self, (number, corner): (usize, &BodyCorner), f: usize, history: &History) -> f64 {
+    /// The strain by what bears at a corner of the target over a face of the surface.
+    fn strain_of_corner(&self, (number, corner): (usize, &BodyCorner), f: usize, history: &History) -> f64 {
         let (surface, first) = (&self.parts.surface, self.nodal_slots() + WAYS * number);
-        let nodes: Vec<usize> = match corner.own {
-            true => corner.flanks.iter().filter_map(|flank| Some(surface.field[flank.face][flank.at?])).collect(),
-            false => surface.field[f][..surface.faces[f].corners()].to_vec(),
-        };
+        let nodes = &surface.field[f][..surface.faces[f].corners()];
+        self.strained((nodes, corner.area), first..first + WAYS, history)
+    }
+
+    /// The pressure over the modulus of what bears at some nodes and in slots beside them, over the largest area of these and no less than the given one.
+    pub(super) fn strained(&self, (nodes, area): (&[usize], f64), slots: Range<usize>, history: &History) -> f64 {
+        let pieces = |node: usize| (0..self.pieces).map(move |piece| self.slot(node, piece));
         let force = |slot: usize| {
             let values = history.slot(slot);
             values[entry::PRESSURE].max(0.0) * values[entry::XI] * values[entry::HALF]
         };
-        let pieces = |node: usize| (0..self.pieces).map(move |piece| self.slot(node, piece));
-        let of_nodes = nodes.iter().flat_map(|&node| pieces(node)).map(force).sum::<f64>();
-        let of_corner = (first..first + WAYS).map(force).sum::<f64>();
-        let area = nodes.iter().map(|&node| self.areas[node]).fold(0.0, f64::max).max(corner.area);
-        (of_nodes + of_corner) / area
+        let all: f64 = nodes.iter().flat_map(|&node| pieces(node)).chain(slots).map(force).sum();
+        let area = nodes.iter().map(|&node| self.areas[node]).fold(area, f64::max);
+        all / (area * self.parts.options.modulus)
     }
 
     fn node_bears(&self, node: usize, history: &History) -> bool {

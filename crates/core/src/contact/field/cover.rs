@@ -77,8 +77,12 @@ pub struct Landing {
     pub corner: Option<usize>,
     /// The corner that it lies over where the surface ends, as on a plane or axis of symmetry.
     pub border: Option<usize>,
-    /// Part of the face's area that it has.
+    /// Part of the face's area that it has,
     pub share: f64,
+    /// whether that is more than where all that lies at so small an angle is pressed flat,
+    pub slender: bool,
+    /// and how deep the field that bore it let it lie in the face: it bears where it goes deeper.
+    pub laid: f64,
     /// What touches the face: the centre of the tip or an end of its arc, in the tool's own frame, and the radius about that.
     pub centre: Vec3,
     /// Zero for the end of an arc.

@@ -43,7 +43,7 @@ impl FieldContact {
         for (number, &most) in depths.iter().enumerate() {
             let mut parts = now.patches(number, reach, &mut near);
             parts.retain(|seen| !history.is_some_and(|history| self.is_beside(seen, (before.0, history))));
-            self.leave_to_corners(&mut parts, (before.0, history));
+            self.leave_to_corners(&mut parts, before.0);
             for seen in parts {
                 let depth = self.depth_at(&seen, most, (before.0, &whole));
                 let piece = self.piece_of(seen.patch.target);
@@ -114,9 +114,9 @@ impl FieldContact {
 
     /// What the corners of a face leave to those of the body, part by part. Dual functions are negative somewhere: where a corner of an edge of the plane
     /// has only some of the parts that see a smooth piece these have none.
-    fn leave_to_corners(&self, parts: &mut [SeenPart], (before, history): (&Configuration, Option<&History>)) {
+    fn leave_to_corners(&self, parts: &mut [SeenPart], before: &Configuration) {
         for seen in &mut *parts {
-            seen.patch.left = before.left(&seen.patch, history);
+            seen.patch.left = before.left(&seen.patch);
         }
         if !self.parts.surface.plane {
             return;
@@ -238,8 +238,8 @@ impl FieldContact {
         let duals = history.map_or_else(|| self.first_limits(&now.placed), |history| self.known_limits(history));
         let now = Configuration { duals: &duals, ..now };
         let tips = match history {
-            Some(history) => now.tips(self.longest, None, self.known_feet(history)),
-            None => now.tips(self.longest, Some(&[]), |_| None),
+            Some(history) => now.tips(self.longest, None, self.known_feet(history), None),
+            None => now.tips(self.longest, Some(&[]), |_| None, None),
         };
         let pointings = history.map_or(Vec::new(), |history| self.known_pointings(history));
         self.find((&now, tips, &pointings), reach, (&depths, (&now, u)), history, |_, _, _| {})

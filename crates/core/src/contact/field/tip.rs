@@ -21,6 +21,7 @@
 use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
+use super::corner::pressed_flat;
 use super::cover::{FEET, FootBeside, Landing, Patch, root_near};
 use super::face::{FieldFace, PlacedFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
@@ -161,6 +162,7 @@ impl Configuration<'_> {
         reach: f64,
         before: Option<&[Option<TipFoot>]>,
         known: impl Fn(usize) -> Option<usize>,
+        history: Option<&History>,
     ) -> Vec<Option<TipFoot>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let mut feet = vec![None; FEET * self.contact.tips().len()];
@@ -177,10 +179,16 @@ impl Configuration<'_> {
             let first = FEET * number;
             let last = |before: &[Option<TipFoot>]| {
                 let feet = before.get(first..first + FEET)?;
-                feet.iter().flatten().find_map(|found| found.patch.tip).map(|landing| landing.share)
+                feet.iter().flatten().find_map(|found| found.patch.tip).map(|landing| (landing.share, false))
             };
-            let share = || self.least_share(&found, tip, tool);
-            let share = before.map_or(1.0, |before| last(before).unwrap_or_else(share));
+            let share = || {
+                let strain =
+                    |f: usize| history.map_or(f64::INFINITY, |history| self.contact.strain_at(first, f, history));
+                let least = |strain: &dyn Fn(usize) -> f64| self.least_share((&found, tip), tool, strain);
+                let share = least(&strain);
+                (share, share > least(&|_| f64::INFINITY))
+            };
+            let share = before.map_or((1.0, false), |before| last(before).unwrap_or_else(share));
             let rank = |place: &TipPlace, foot: usize| match known(foot) {
                 Some(face) if face == place.face => 0,
                 Some(face) if self.adjoin(face, place.face) => 1,
@@ -208,7 +216,7 @@ impl Configuration<'_> {
         (place, length): (&TipPlace, f64),
         places: &[TipPlace],
         tool: &ToolInPlace,
-        share: f64,
+        (share, slender): (f64, bool),
     ) -> Landing {
         let &TipPlace { face, xi, corner, border, centre, radius, .. } = place;
         let own = centre - tool.rotate_back(place.n) * radius;
@@ -223,7 +231,7 @@ impl Configuration<'_> {
             let corner = usize::from(surface.field[other.face][1] == node);
             Some(FootBeside { face: other.face, corner, xi: other.xi[0], centre: other.centre })
         });
-        Landing { xi, length, corner, border, share, own, centre, radius, beside }
+        Landing { xi, length, corner, border, share, slender, laid: 0.0, own, centre, radius, beside }
     }
 
     /// The places of the surface that a tip may touch, of those that it points at, closest first.
@@ -354,18 +362,19 @@ impl Configuration<'_> {
     }
 
     /// The least part that a tip has in the faces that it touches or nearly so: no farther than an arc stands off a chord of their length.
-    fn least_share(&self, found: &[TipPlace], tip: &Tip, tool: &ToolInPlace) -> f64 {
+    fn least_share(&self, (found, tip): (&[TipPlace], &Tip), tool: &ToolInPlace, strain: &dyn Fn(usize) -> f64) -> f64 {
         let (surface, mesh) = (&self.contact.parts.surface, &self.contact.parts.mesh);
         let near = |(i, place): &(usize, &TipPlace)| {
             *i == 0 || 8.0 * tip.radius * place.gap < surface.size(place.face, mesh).powi(2)
         };
-        let shares = found.iter().enumerate().filter(near).map(|(_, place)| self.share(place, tip, tool));
+        let shares =
+            found.iter().enumerate().filter(near).map(|(_, place)| self.share((place, tip), tool, strain(place.face)));
         shares.fold(1.0, f64::min)
     }
 
     /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
-    /// the end of the surface on the normal it had, which a plane of symmetry keeps.
-    fn share(&self, place: &TipPlace, tip: &Tip, tool: &ToolInPlace) -> f64 {
+    /// the end of the surface on the normal it had, which a plane of symmetry keeps. What bears there strains it by so much.
+    fn share(&self, (place, tip): (&TipPlace, &Tip), tool: &ToolInPlace, strain: f64) -> f64 {
         let (&TipPlace { face: f, nearer: corner, rest, .. }, radius) = (place, tip.radius);
         let flanks = tip.flanks.map(|flank| tool.rotate(flank));
         let surface = &self.contact.parts.surface;
@@ -379,8 +388,10 @@ impl Configuration<'_> {
         let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
         let cosine = rest.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
         let size = 2.0 * area(f).norm();
-        let angle = cosine.clamp(-1.0, 1.0).acos() * radius.max(size) / size;
-        let [from, to] = if radius > 0.0 { FLAT } else { FLAT_AT_VERTEX };
+        let over = radius.max(size) / size;
+        let angle = cosine.clamp(-1.0, 1.0).acos() * over;
+        let flat = if radius > 0.0 { FLAT } else { FLAT_AT_VERTEX };
+        let [from, to] = pressed_flat(flat, strain * over);
         let [apart, _] = smoothstep((angle - from) / (to - from));
         apart * smoothstep(1.0 - self.conformity(place, tool.place(tip.centre), radius) / CONFORMING)[0]
     }
@@ -411,6 +422,13 @@ impl FieldContact {
         }
     }
 
+    /// The strain by what bears at a tip of the tool over a face of the surface, of which this is the first foot.
+    fn strain_at(&self, first: usize, f: usize, history: &History) -> f64 {
+        let slots = self.nodal_slots() + first..self.nodal_slots() + first + FEET;
+        let surface = &self.parts.surface;
+        self.strained((&surface.field[f][..surface.faces[f].corners()], 0.0), slots, history)
+    }
+
     /// The faces on which the feet of the tips lay in an accepted state.
     pub(super) fn known_feet<'a>(&'a self, history: &'a History) -> impl Fn(usize) -> Option<usize> + 'a {
         let face = |foot: usize| history.slot(self.nodal_slots() + foot)[entry::SEGMENT];
@@ -418,9 +436,10 @@ impl FieldContact {
     }
 
     /// Where the tips of the tool lie in an accepted configuration: one that bears has no more of its face than it had, and one that lies
-    /// in the body and bears nothing, as nodes do there, has none: it would bear at once all that it lies in.
+    /// in the body and bears nothing, as nodes do there, has none: it would bear at once all that it lies in; or, where what is slender bends away from
+    /// it, all but that.
     pub(super) fn tips_before(&self, before: &Configuration, history: &History) -> Vec<Option<TipFoot>> {
-        let mut tips = before.tips(f64::INFINITY, Some(&[]), self.known_feet(history));
+        let mut tips = before.tips(f64::INFINITY, Some(&[]), self.known_feet(history), Some(history));
         let nodes_bear = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
         for (number, feet) in tips.chunks_mut(FEET).enumerate() {
             let has = |(foot, found): (usize, &Option<TipFoot>)| {
@@ -430,13 +449,20 @@ impl FieldContact {
                 if values[entry::STATUS] > 0.0 {
                     return (whole > 0.0).then(|| values[entry::XI] / whole);
                 }
-                (gap < 0.0 && nodes_bear).then_some(0.0)
+                (gap < 0.0 && nodes_bear && !landing.slender).then_some(0.0)
             };
             let share = feet.iter().enumerate().filter_map(has).fold(f64::INFINITY, f64::min);
-            feet.iter_mut()
-                .flatten()
-                .filter_map(|found| found.patch.tip.as_mut())
-                .for_each(|landing| landing.share = landing.share.min(share));
+            for (foot, found) in feet.iter_mut().enumerate() {
+                let Some((TipFoot { patch: Patch { tip: Some(landing), .. }, gap }, slot)) =
+                    found.as_mut().map(|found| (found, self.nodal_slots() + FEET * number + foot))
+                else {
+                    continue;
+                };
+                landing.share = landing.share.min(share);
+                if landing.slender && nodes_bear && history.slot(slot)[entry::STATUS] == 0.0 {
+                    landing.laid = (-*gap).max(0.0);
+                }
+            }
         }
         tips
     }

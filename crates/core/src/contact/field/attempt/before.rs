@@ -151,10 +151,18 @@ impl FieldAttempt<'_> {
         }
     }
 
-    /// How deep a corner lay in what it begins to touch in this increment.
+    /// How deep a corner or a tip lay in what it begins to touch in this increment.
     pub(super) fn laid(&self, slot: usize) -> f64 {
         let begins = self.history.slot(slot)[entry::OVERLAP] == 0.0;
-        self.pointing(slot).filter(|_| begins).map_or(0.0, |pointing| pointing.laid)
+        let tip = || {
+            let foot = slot.checked_sub(self.contact.nodal_slots())?;
+            self.tips_before.get(foot)?.as_ref()?.patch.tip
+        };
+        let laid = || match self.pointing(slot) {
+            Some(pointing) => pointing.laid,
+            None => tip().map_or(0.0, |landing| landing.laid),
+        };
+        if begins { laid() } else { 0.0 }
     }
 
     /// The line that the tangents of a node followed at the accepted state, moved with the tool.

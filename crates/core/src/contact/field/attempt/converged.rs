@@ -155,7 +155,7 @@ impl FieldAttempt<'_> {
             return false;
         }
         let mut changed = false;
-        let found = self.in_place(u).tips(self.contact.longest, Some(&[]), |_| None);
+        let found = self.in_place(u).tips(self.contact.longest, Some(&[]), |_| None, Some(self.history));
         for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
             if let (Some(had), Some(share)) = (share(before), share(now))
                 && share < CHANGED * had

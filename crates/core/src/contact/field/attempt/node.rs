@@ -35,7 +35,8 @@ impl FieldAttempt<'_> {
     /// What is kept of an open node. A corner that lets go lies nowhere any more.
     fn leave(&self, slot: usize, old: &[f64], new: &mut [f64]) {
         leave(&*self.law, old, new);
-        if self.pointing(slot).is_some() && Overlap::fits(new) && new[entry::OVERLAP] > 0.0 {
+        let laid = self.contact.node_of(slot).is_none() && self.contact.parts.options.overlap != Overlap::Fit;
+        if laid && Overlap::fits(new) && new[entry::OVERLAP] > 0.0 {
             Overlap::lay(new, 0.0);
         }
     }
@@ -285,9 +286,9 @@ impl FieldAttempt<'_> {
         let depth = stencil.faces().map(|face| self.depths[face]).fold(f64::INFINITY, f64::min);
         let old = self.history.slot(slot);
         if old[entry::STATUS] == 0.0 {
-            // Overlap that is yet to be removed lay there before.
+            // Overlap that is yet to be removed lay there before, and so did a corner or tip that the field bore.
             let lay = if old[entry::SEGMENT] >= 0.0 { old[entry::PENETRATION].max(0.0) } else { 0.0 };
-            refuse_jump(sums.y[0] - lay, depth, || contact.name_of(slot))?;
+            refuse_jump(sums.y[0] - lay.max(self.laid(slot)), depth, || contact.name_of(slot))?;
         }
         let Some(rigid) = contact.parts.target.as_tool() else { return Ok(()) };
         rigid.refuse_turn(stencil.at.motion(), self.accepted, || contact.name_of(slot))

@@ -246,7 +246,7 @@ fn a_beam_bent_away_from_flats_pivots_on_their_ends() {
     for what in ["bodies", "", ", fillet = 0.2", ", fillet = 0.5"] {
         let fine = bent_over(what, ["quad8", "[60, 4]"]);
         let meshes = [["quad4", "[12, 2]"], ["quad4", "[20, 2]"], ["quad8", "[12, 2]"]];
-        for (mesh, within) in meshes.into_iter().zip([0.08, 0.04, 0.04]) {
+        for (mesh, within) in meshes.into_iter().zip([0.08, 0.04, 0.05]) {
             let force = bent_over(what, mesh);
             assert!((force / fine - 1.0).abs() < within, "{what} {mesh:?}: {force}, on a fine mesh {fine}");
         }

@@ -323,7 +323,7 @@ fn a_law_of_a_library_needs_a_program_that_loads_it() {
     assert!(told.contains("this program loads no laws of shared libraries; the command `asperity` does"), "{told}");
 }
 
-/// A mesh in the coordinates of a survey is told, and a sheet that bears a load across its face is not called overloaded by it.
+/// A sheet that bears a load across its face is not called overloaded by it, in the coordinates of a survey neither.
 #[test]
 fn numbers_that_hardly_belong_together_are_told() {
     let deck = |[x, y]: [f64; 2], load: f64| {
@@ -353,8 +353,9 @@ load.plate = {{ y = {load:.1} }}
         let made = build(read(&deck(at, load), "test.toml", Path::new(""), &[]).unwrap()).unwrap();
         format!("{:?}", review(&made).unwrap().problems)
     };
-    let (near, far) = (told([0.0, 0.0], -10e3), told([4.5e5, 5.4e6], -10e3));
-    assert!(!near.contains("rounding") && !near.contains("amounts to"), "{near}");
-    assert!(far.contains("coordinates up to 5.4e6") && far.contains("move the mesh near the origin"), "{far}");
+    for at in [[0.0, 0.0], [4.5e5, 5.4e6]] {
+        let told = told(at, -10e3);
+        assert!(!told.contains("amounts to"), "{told}");
+    }
     assert!(told([0.0, 0.0], -1e6).contains("`load.plate` amounts to a stress of 1.0e4"));
 }

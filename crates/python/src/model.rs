@@ -111,7 +111,7 @@ impl Model {
     /// Positions of the nodes before any motion, (n, 3).
     #[getter]
     fn nodes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table(py, (0..self.made.model.mesh.points.len()).flat_map(|node| self.made.model.mesh.place(node).0), 3)
+        table(py, self.made.model.mesh.places().flat_map(|place| place.0), 3)
     }
     /// Nodes of the cells in VTK's order, by kind of cell.
     #[getter]

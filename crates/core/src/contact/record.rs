@@ -115,6 +115,11 @@ pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
     law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
 }
 
+/// The normal force of a node of a field, from what is known of it.
+pub fn normal_force(values: &[f64]) -> f64 {
+    values[entry::PRESSURE].max(0.0) * values[entry::HALF] * values[entry::XI]
+}
+
 /// The largest penetration at a closed point of the first so many slots, which are those of points.
 pub fn largest_penetration(history: &History, points: usize) -> f64 {
     let slots = (0..points).map(|i| history.slot(i));

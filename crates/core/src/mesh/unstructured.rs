@@ -2,7 +2,7 @@
 
 use super::{Cell, Group, Side, Space};
 use crate::error::Error;
-use crate::tensor::Vec3;
+use crate::tensor::{BoundingBox, Vec3};
 use std::collections::BTreeMap;
 
 /// Distance from the origin of the coordinates over the extent of a mesh beyond which it has an origin of its own: its gaps would lose
@@ -72,21 +72,21 @@ impl Mesh {
     pub fn place(&self, node: usize) -> Vec3 {
         self.points[node] + self.origin
     }
+    /// The same of all nodes.
+    pub fn places(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.points.iter().map(|&point| point + self.origin)
+    }
     /// Puts the origin of the mesh near its nodes, where they lie farther than a hundred times their extent from that of the
     /// coordinates, as in coordinates of a land survey: a position that is the sum of such a number and a displacement has lost the
     /// digits that a gap is made of. Radii stay what they are.
     ///
     /// The origin is a multiple of a power of two beyond the extent, so that positions lose nothing by it.
     pub fn recentre(&mut self, space: Space) {
-        let bounds = |axis: usize| {
-            let x = self.points.iter().map(|point| point[axis]);
-            x.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
-        };
-        let bounds: [_; 3] = std::array::from_fn(bounds);
-        let extent = bounds.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        let bounds = BoundingBox::of(self.points.iter().copied());
+        let (extent, middle) = ((bounds.max - bounds.min).0.into_iter().fold(0.0, f64::max), bounds.centre());
         let unit = extent.log2().ceil().exp2();
         let origin = |axis: usize| {
-            let middle = 0.5 * bounds[axis][0] + 0.5 * bounds[axis][1];
+            let middle = middle[axis];
             let is_far = extent > 0.0 && middle.abs() > FAR * extent && !(space == Space::Axisymmetric && axis == 0);
             if is_far { (middle / unit).round() * unit } else { 0.0 }
         };

@@ -38,6 +38,6 @@ impl BoundingBox {
     }
     /// Its middle.
     pub fn centre(&self) -> Vec3 {
-        (self.min + self.max) * 0.5
+        self.min * 0.5 + self.max * 0.5
     }
 }

@@ -28,7 +28,6 @@ pub(super) fn facts_seen(made: &Made, seen: &[Seen]) -> Facts {
     let off = [("`solver.piecewise = false`", solver.piecewise), ("`solver.line_search = false`", solver.line_search)];
     Facts {
         size: model.mesh.size(),
-        far: model.mesh.points.iter().flat_map(|point| point.0).fold(0.0, |far, x| far.max(x.abs())),
         bodies: model.bodies.iter().map(|(body, material)| bodies::facts(made, body, *material)).collect(),
         contacts: contacts::facts(made, seen),
         tools: tools(model),

@@ -5,8 +5,6 @@
 pub struct Facts {
     /// Size of the mesh, a length.
     pub size: f64,
-    /// Its largest coordinate, a length.
-    pub far: f64,
     /// Its bodies.
     pub bodies: Vec<BodyFacts>,
     /// Its contacts.

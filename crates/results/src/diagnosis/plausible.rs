@@ -25,9 +25,6 @@ const FAINT_LOAD: f64 = 1e-13;
 const TOOL_SIZE: [f64; 2] = [2e-3, 300.0];
 const DISTANCE: f64 = 20.0;
 const MOTION: f64 = 50.0;
-/// Largest coordinate over a cell, whose strains rounding leaves to 2e-11 then: blocks in contact whose motion is prescribed ran at 2e6 and no
-/// more at 6e6, a block under a plate that loads hold and tilt at 1e4 and no more at 2e5.
-const FAR: f64 = 1e5;
 /// Coefficient of friction: that of rubber on rough ground is some 1.5.
 const FRICTION: f64 = 2.0;
 /// Angle of friction of a soil in degrees, those of clays from some 5 on.
@@ -45,7 +42,6 @@ fn weight(beyond: f64) -> f64 {
 /// Everything odd about a model.
 pub fn oddities(facts: &Facts) -> Vec<Oddity> {
     let mut found: Vec<Oddity> = facts.bodies.iter().filter_map(stiffness).collect();
-    found.extend(facts.bodies.iter().find_map(|body| far(facts, body)));
     found.extend(facts.steps.iter().flat_map(|step| loads(facts, step)));
     found.extend(facts.steps.iter().filter_map(|step| motion(facts, step)));
     found.extend(tools(facts));
@@ -74,18 +70,6 @@ fn stiffness(body: &BodyFacts) -> Option<Oddity> {
         ),
         help: "are both in the same unit of stress?".into(),
         weight: weight(10.0 * beyond),
-    })
-}
-
-fn far(facts: &Facts, body: &BodyFacts) -> Option<Oddity> {
-    let ratio = facts.far / body.cell;
-    (ratio > FAR).then(|| Oddity {
-        what: format!(
-            "coordinates up to {:.1e} beside cells of {:.1e} in body `{}` leave strains and gaps to rounding",
-            facts.far, body.cell, body.name
-        ),
-        help: "move the mesh near the origin".into(),
-        weight: weight(ratio / FAR),
     })
 }
 

@@ -36,7 +36,7 @@ impl BodyGrid {
         let groups = mesh.groups.iter();
         let with_cells = groups.clone().filter(|(_, group)| !group.cells.is_empty());
         Ok(Self {
-            points: (0..mesh.points.len()).map(|node| mesh.place(node).0).collect(),
+            points: mesh.places().map(|place| place.0).collect(),
             cells: Cells::of_mesh(mesh)?,
             point_masks: groups.map(|(name, group)| mask(name, mesh.points.len(), &group.nodes)).collect(),
             cell_masks: with_cells.map(|(name, group)| mask(name, mesh.cell_count(), &group.cells)).collect(),

@@ -111,7 +111,7 @@ impl FieldAttempt<'_> {
             let pressed = self.history.slot(slot)[entry::PRESSURE] > 0.0;
             if let Some(node) = self.contact.node_of(slot).filter(|_| pressed && support.patches.is_empty()) {
                 support.parted = now.parted(node, slot % self.contact.pieces);
-                support.slid = self.slid_out_of_sight(slot, node, u);
+                support.slid = self.slid_out_of_sight(slot, node, &now);
             }
         }
         found

@@ -21,7 +21,7 @@ use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, smoothstep};
 use super::points::Recall;
 use super::surface::FieldSurface;
-use crate::contact::record::entry;
+use crate::contact::record::{entry, normal_force};
 use crate::system::History;
 use crate::tensor::{BoundingBox, Vec3};
 use std::ops::Range;
@@ -89,7 +89,7 @@ pub(super) fn pressed_flat(angles: [f64; 2], strain: f64) -> [f64; 2] {
 
 impl Configuration<'_> {
     /// A face of a side, and where it is: of the surface, or else of the target.
-    fn of_side(&self, own: bool, f: usize) -> Option<(&FieldFace, &PlacedFace)> {
+    pub(super) fn of_side(&self, own: bool, f: usize) -> Option<(&FieldFace, &PlacedFace)> {
         let placed = match &self.target {
             _ if own => &self.placed[f],
             TargetInPlace::Faces(target) => target.placed(f),
@@ -147,7 +147,7 @@ impl Configuration<'_> {
         let (Some(c), Some(other)) = (self.place_of(corner), self.contact.side(!corner.own)) else {
             return Default::default();
         };
-        let bears = self.contact.bears(number, history);
+        let (bears, first) = (self.contact.bears(number, history), self.contact.nodal_slots() + WAYS * number);
         let (mut before, mut past): (Vec<Touchable>, Vec<Touchable>) = Default::default();
         self.across(corner, c, far.max(DEEPEST * corner.size), |f, face, placed| {
             let n = other.middle_normal(face, placed);
@@ -161,7 +161,7 @@ impl Configuration<'_> {
             // A corner of the surface has the stress of its node, which the field hands over at once.
             let strain = match corner.own {
                 true => f64::INFINITY,
-                false => self.contact.strain_of_corner((number, corner), f, history),
+                false => self.contact.strained((f, corner.area), first..first + WAYS, history),
             };
             let bend = corner.bend + other.bends[f];
             let (range, dips) = (pressed_flat(RISES, strain).map(|angle| angle + bend), RISES[0] + bend);
@@ -315,7 +315,7 @@ fn place_along(face: &FieldFace, xi: [f64; 2], part: f64) -> [f64; 2] {
 
 impl FieldContact {
     /// The surface, or else a target of bodies.
-    pub(super) fn side(&self, own: bool) -> Option<&FieldSurface> {
+    fn side(&self, own: bool) -> Option<&FieldSurface> {
         if own { Some(&self.parts.surface) } else { self.parts.target.as_faces().map(|faces| &faces.surface) }
     }
 
@@ -346,23 +346,15 @@ impl FieldContact {
         own || nodes.any(|node| self.node_bears(node, history))
     }
 
-    /// The strain by what bears at a corner of the target over a face of the surface.
-    fn strain_of_corner(&self, (number, corner): (usize, &BodyCorner), f: usize, history: &History) -> f64 {
-        let (surface, first) = (&self.parts.surface, self.nodal_slots() + WAYS * number);
-        let nodes = &surface.field[f][..surface.faces[f].corners()];
-        self.strained((nodes, corner.area), first..first + WAYS, history)
-    }
-
-    /// The pressure over the modulus of what bears at some nodes and in slots beside them, over the largest area of these and no less than the given one.
-    pub(super) fn strained(&self, (nodes, area): (&[usize], f64), slots: Range<usize>, history: &History) -> f64 {
-        let pieces = |node: usize| (0..self.pieces).map(move |piece| self.slot(node, piece));
-        let force = |slot: usize| {
-            let values = history.slot(slot);
-            values[entry::PRESSURE].max(0.0) * values[entry::XI] * values[entry::HALF]
-        };
-        let all: f64 = nodes.iter().flat_map(|&node| pieces(node)).chain(slots).map(force).sum();
-        let area = nodes.iter().map(|&node| self.areas[node]).fold(area, f64::max);
-        all / (area * self.parts.options.modulus)
+    /// The strain by what bears over a face of the surface, at its nodes and in slots beside them: the pressure over the largest area of these, no less than
+    /// the given one, over the modulus.
+    pub(super) fn strained(&self, (f, area): (usize, f64), beside: Range<usize>, history: &History) -> f64 {
+        let surface = &self.parts.surface;
+        let nodes = || surface.field[f][..surface.faces[f].corners()].iter().copied();
+        let of_nodes = nodes().flat_map(|node| self.slots_of(node, history));
+        let force: f64 = of_nodes.chain(beside.map(|slot| history.slot(slot))).map(normal_force).sum();
+        let area = nodes().map(|node| self.areas[node]).fold(area, f64::max);
+        force / (area * self.parts.options.modulus)
     }
 
     fn node_bears(&self, node: usize, history: &History) -> bool {

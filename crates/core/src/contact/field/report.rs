@@ -6,10 +6,10 @@ use super::face::{FieldFace, moved};
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
-use crate::contact::record::{ContactRecord, entry};
+use crate::contact::record::{ContactRecord, entry, normal_force};
 use crate::contact::{Borne, Move};
 use crate::system::History;
-use crate::tensor::Vec3;
+use crate::tensor::{DisjointSets, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl FieldContact {
@@ -192,8 +192,7 @@ impl FieldContact {
         let (mut force, mut seen) = (0.0, 0.0);
         for (slot, share) in shares.into_iter().enumerate().filter(|(slot, _)| history.slot(*slot)[entry::STATUS] > 0.0)
         {
-            let values = history.slot(slot);
-            let borne = values[entry::PRESSURE].max(0.0) * values[entry::HALF] * values[entry::XI];
+            let borne = normal_force(history.slot(slot));
             (force, seen) = (force + borne, seen + borne * share);
         }
         Some(if seen > 0.0 { force / seen } else { 1.0 })
@@ -210,44 +209,30 @@ impl FieldContact {
     /// The part of the force that tips of the tool bear; none where nothing does.
     pub fn borne_by_tips(&self, history: &History) -> f64 {
         let closed = (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0);
-        let force = |slot: usize| {
-            let values = history.slot(slot);
-            values[entry::PRESSURE].max(0.0) * values[entry::HALF] * values[entry::XI]
-        };
         let [tips, all] = closed.fold([0.0, f64::MIN_POSITIVE], |[tips, all], slot| {
-            let force = force(slot);
+            let force = normal_force(history.slot(slot));
             [tips + if self.node_of(slot).is_none() { force } else { 0.0 }, all + force]
         });
         tips / all
     }
 
     /// What is known of a node, for each piece of the target.
-    fn slots_of<'a>(&'a self, node: usize, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
+    pub(super) fn slots_of<'a>(&'a self, node: usize, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
         (0..self.pieces).map(move |piece| history.slot(self.slot(node, piece)))
     }
 
     /// The most points that are closed beside one another; tips and edges lie beside any.
     pub fn largest_patch(&self, history: &History) -> usize {
-        let surface = self.surface();
-        let (mut open, mut apart) = (vec![true; surface.nodes.len()], 0);
-        for slot in (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0) {
-            match self.node_of(slot) {
-                Some(node) => open[node] = false,
-                None => apart += 1,
-            }
+        let (surface, is_closed) = (self.surface(), |values: &[f64]| values[entry::STATUS] > 0.0);
+        let count = surface.nodes.len();
+        let closed: Vec<bool> = (0..count).map(|node| self.slots_of(node, history).any(is_closed)).collect();
+        let (mut sets, mut sizes) = (DisjointSets::new(count), vec![0; count]);
+        for node in (0..count).filter(|&node| closed[node]) {
+            surface.neighbours(node).filter(|&other| closed[other]).for_each(|other| sets.join(node, other));
         }
-        let mut largest = 0;
-        for first in 0..open.len() {
-            let (mut count, mut reached) = (0, vec![first]);
-            while let Some(node) = reached.pop() {
-                if !std::mem::replace(&mut open[node], true) {
-                    count += 1;
-                    reached.extend(surface.neighbours(node));
-                }
-            }
-            largest = largest.max(count);
-        }
-        largest + apart
+        (0..count).filter(|&node| closed[node]).for_each(|node| sizes[sets.root(node)] += 1);
+        let apart = (self.nodal_slots()..self.slots()).filter(|&slot| is_closed(history.slot(slot))).count();
+        sizes.into_iter().max().unwrap_or(0) + apart
     }
 
     /// By how much the pressure changes from node to node where all around presses, inside the surface: the differences from the mean of the

@@ -182,8 +182,10 @@ impl Configuration<'_> {
                 feet.iter().flatten().find_map(|found| found.patch.tip).map(|landing| (landing.share, false))
             };
             let share = || {
-                let strain =
-                    |f: usize| history.map_or(f64::INFINITY, |history| self.contact.strain_at(first, f, history));
+                let slots = self.contact.nodal_slots() + first..self.contact.nodal_slots() + first + FEET;
+                let strain = |f: usize| {
+                    history.map_or(f64::INFINITY, |history| self.contact.strained((f, 0.0), slots.clone(), history))
+                };
                 let least = |strain: &dyn Fn(usize) -> f64| self.least_share((&found, tip), tool, strain);
                 let share = least(&strain);
                 (share, share > least(&|_| f64::INFINITY))
@@ -422,13 +424,6 @@ impl FieldContact {
         }
     }
 
-    /// The strain by what bears at a tip of the tool over a face of the surface, of which this is the first foot.
-    fn strain_at(&self, first: usize, f: usize, history: &History) -> f64 {
-        let slots = self.nodal_slots() + first..self.nodal_slots() + first + FEET;
-        let surface = &self.parts.surface;
-        self.strained((&surface.field[f][..surface.faces[f].corners()], 0.0), slots, history)
-    }
-
     /// The faces on which the feet of the tips lay in an accepted state.
     pub(super) fn known_feet<'a>(&'a self, history: &'a History) -> impl Fn(usize) -> Option<usize> + 'a {
         let face = |foot: usize| history.slot(self.nodal_slots() + foot)[entry::SEGMENT];
@@ -442,9 +437,10 @@ impl FieldContact {
         let mut tips = before.tips(f64::INFINITY, Some(&[]), self.known_feet(history), Some(history));
         let nodes_bear = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
         for (number, feet) in tips.chunks_mut(FEET).enumerate() {
+            let values = |foot: usize| history.slot(self.nodal_slots() + FEET * number + foot);
             let has = |(foot, found): (usize, &Option<TipFoot>)| {
                 let &TipFoot { patch: Patch { face, tip, .. }, gap } = found.as_ref()?;
-                let (landing, values) = (tip?, history.slot(self.nodal_slots() + FEET * number + foot));
+                let (landing, values) = (tip?, values(foot));
                 let whole = self.whole_area(face, &landing);
                 if values[entry::STATUS] > 0.0 {
                     return (whole > 0.0).then(|| values[entry::XI] / whole);
@@ -453,13 +449,9 @@ impl FieldContact {
             };
             let share = feet.iter().enumerate().filter_map(has).fold(f64::INFINITY, f64::min);
             for (foot, found) in feet.iter_mut().enumerate() {
-                let Some((TipFoot { patch: Patch { tip: Some(landing), .. }, gap }, slot)) =
-                    found.as_mut().map(|found| (found, self.nodal_slots() + FEET * number + foot))
-                else {
-                    continue;
-                };
+                let Some(TipFoot { patch: Patch { tip: Some(landing), .. }, gap }) = found else { continue };
                 landing.share = landing.share.min(share);
-                if landing.slender && nodes_bear && history.slot(slot)[entry::STATUS] == 0.0 {
+                if landing.slender && nodes_bear && values(foot)[entry::STATUS] == 0.0 {
                     landing.laid = (-*gap).max(0.0);
                 }
             }

@@ -232,8 +232,7 @@ fn head(mesh: &Mesh, bodies: &[usize]) -> (String, Vec<u64>) {
     let mut text =
         format!("    1C{:<6}\n    1U{:<20}{}\n", "run", "PGM", concat!("Asperity ", env!("CARGO_PKG_VERSION")));
     let _ = writeln!(text, "    2C{:18}{:>12}{:37}1", "", nodes.len(), "");
-    for (node, number) in nodes.iter().enumerate() {
-        let point = mesh.place(node);
+    for (number, point) in nodes.iter().zip(mesh.places()) {
         let _ = writeln!(text, " -1{number:>10}{}{}{}", e12(point[0]), e12(point[1]), e12(point[2]));
     }
     let _ = writeln!(text, " -3\n    3C{:18}{:>12}{:37}1", "", cells.len(), "");

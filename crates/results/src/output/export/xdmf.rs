@@ -84,7 +84,7 @@ fn described(mesh: &Mesh) -> Result<String, Error> {
          <DataItem DataType=\"Float\" Precision=\"8\" Dimensions=\"{} 3\" Format=\"XML\">\n",
         mesh.points.len()
     );
-    for point in (0..mesh.points.len()).map(|node| mesh.place(node)) {
+    for point in mesh.places() {
         let _ = writeln!(text, "{:?} {:?} {:?}", point[0], point[1], point[2]);
     }
     Ok(text + "</DataItem>\n</Geometry>\n")

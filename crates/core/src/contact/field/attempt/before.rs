@@ -188,24 +188,24 @@ impl FieldAttempt<'_> {
 
     /// By how much a node that slipped has slid over the face of a body that it saw at the accepted state, along its shear, where it sees none any
     /// more.
-    pub(super) fn slid_out_of_sight(&self, slot: usize, node: usize, u: &[f64]) -> [f64; 2] {
-        let (old, parts) = (self.history.slot(slot), &self.contact.parts);
+    pub(super) fn slid_out_of_sight(&self, slot: usize, node: usize, now: &Configuration) -> [f64; 2] {
+        let (old, surface) = (self.history.slot(slot), &self.contact.parts.surface);
         let shear = [old[entry::SHEAR], old[entry::SHEAR2]];
         let size = shear[0].hypot(shear[1]);
-        let slips = size > 0.0 && old[entry::STATUS] == f64::from(Status::Slip as u8);
-        let TargetInPlace::Faces(target) = &self.before.target else { return [0.0; 2] };
-        let number = old[entry::SEGMENT] as usize;
-        let Some(face) = self.contact.face_of(false, number).filter(|_| slips && old[entry::SEGMENT] >= 0.0) else {
+        if size == 0.0 || old[entry::STATUS] != f64::from(Status::Slip as u8) || old[entry::SEGMENT] < 0.0 {
             return [0.0; 2];
+        }
+        let moved = |own: bool, f: usize, xi: &dyn Fn(&FieldFace) -> [f64; 2]| {
+            let ((face, before), (_, now)) = (self.before.of_side(own, f)?, now.of_side(own, f)?);
+            let shape = face.shape(xi(face));
+            let [a, b] = shape.tangents(before.nodes(), surface.plane);
+            Some((shape.value(now.nodes()) - shape.value(before.nodes()), a.cross(b).unit()))
         };
-        let moved = |node: usize| {
-            let dofs = parts.dofs.displacements(node);
-            moved(Vec3::zero(), &u[dofs.clone()]) - moved(Vec3::zero(), &self.accepted[dofs])
-        };
-        let shape = face.shape(face.middle());
-        let carried = face.nodes.iter().zip(shape.n).fold(Vec3::zero(), |sum, (&node, n)| sum + moved(node) * n);
-        let way = moved(parts.surface.nodes[node].node) - carried;
-        let n = self.contact.side(false).map_or(Vec3::zero(), |seen| seen.middle_normal(face, target.placed(number)));
+        let (f, corner) = surface.nodes[node].support[0];
+        let of_node = moved(true, f, &|face| face.corner_place(corner));
+        let of_target = moved(false, old[entry::SEGMENT] as usize, &FieldFace::middle);
+        let (Some((own, _)), Some((carried, n))) = (of_node, of_target) else { return [0.0; 2] };
+        let way = own - carried;
         let slid = (way - n * way.dot(n)).norm();
         shear.map(|component| component / size * slid)
     }

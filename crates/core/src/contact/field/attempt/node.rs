@@ -7,7 +7,7 @@ use crate::contact::field::corner::Pointing;
 use crate::contact::field::stencil::{COUNT, NodeSums, StencilInPlace};
 use crate::contact::increment::{in_contact, refuse_jump};
 use crate::contact::kink::answer;
-use crate::contact::record::{entry, leave, past, write};
+use crate::contact::record::{entry, leave, normal_force, past, write};
 use crate::interface::{Past, Status};
 use crate::system::{Answer, Branch, Coordinates, Local, Term};
 use crate::tensor::root;
@@ -32,11 +32,12 @@ impl FieldAttempt<'_> {
         self.shift(slot)[0] + self.nearer[slot].most + recession - self.laid(slot)
     }
 
-    /// What is kept of an open node. A corner that lets go lies nowhere any more.
+    /// What is kept of an open node. A corner or a tip that lets go lies nowhere any more.
     fn leave(&self, slot: usize, old: &[f64], new: &mut [f64]) {
         leave(&*self.law, old, new);
-        let laid = self.contact.node_of(slot).is_none() && self.contact.parts.options.overlap != Overlap::Fit;
-        if laid && Overlap::fits(new) && new[entry::OVERLAP] > 0.0 {
+        // Tips of a surface that is meant to fit lie there for good.
+        let is_tip = self.contact.node_of(slot).is_none() && self.contact.parts.options.overlap != Overlap::Fit;
+        if (self.pointing(slot).is_some() || is_tip) && Overlap::fits(new) && new[entry::OVERLAP] > 0.0 {
             Overlap::lay(new, 0.0);
         }
     }
@@ -93,13 +94,14 @@ impl FieldAttempt<'_> {
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
             self.leave(slot, old, new);
-            let (areas, past) = ([old[entry::XI] * old[entry::HALF], 0.0], self.past(slot, old[entry::HALF]));
+            let area = old[entry::XI] * old[entry::HALF];
             if old[entry::STATUS] > 0.0 {
-                let terms = (&*self.law, &past, old);
-                account(terms, (&contact.parts.options, self.at), (areas, 0.0), (None, stencil.slid()), local);
+                let past = self.past(slot, old[entry::HALF]);
+                let (terms, options) = ((&*self.law, &past, old), (&contact.parts.options, self.at));
+                account(terms, options, ([area, 0.0], 0.0), (None, stencil.slid()), local);
             }
             local.energies.across = -across(old, stencil.parted());
-            self.add_fracture(slot, [old[entry::XI] * old[entry::HALF], old[entry::HALF]], local);
+            self.add_fracture(slot, [area, old[entry::HALF]], local);
             return Ok(0);
         }
         let (stretch, stretching) = stencil.stretch();
@@ -298,7 +300,7 @@ impl FieldAttempt<'_> {
 /// What the trapezoid of the work of supports and loads has over a `gap` of a node that was, or is, closed at its end: half the pressure all
 /// the way, while there is none where the node is apart from the target.
 fn across(closed: &[f64], gap: f64) -> f64 {
-    0.5 * closed[entry::PRESSURE].max(0.0) * closed[entry::HALF] * closed[entry::XI] * gap.max(0.0)
+    0.5 * normal_force(closed) * gap.max(0.0)
 }
 
 /// Adds what stresses over undeformed area change with the stretch.

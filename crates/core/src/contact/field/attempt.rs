@@ -79,6 +79,8 @@ pub struct FieldAttempt<'a> {
     pub idle: Vec<bool>,
     /// Whether any node bore a pressure at the accepted state: one that closes then takes over from others what slides all the while.
     pub bore: bool,
+    /// Whether the shares of corners and tips are those of a state that bears.
+    pub shared: bool,
     /// Gap from which on a node is too far away to close in the next iteration.
     pub far: f64,
     /// Length of the increment over that of the last; zero without one.
@@ -222,7 +224,8 @@ impl Attempt for FieldAttempt<'_> {
     /// Comput. Struct. 42, 1992).
     fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
         self.refuse_passage(u, new)?;
-        let goes_on = self.break_bonds(new)? || self.yield_tips(u) || self.improve(new, taken)?;
+        let goes_on =
+            self.break_bonds(new)? || self.share_anew(u, new) || self.yield_tips(u) || self.improve(new, taken)?;
         if !goes_on {
             self.wear_beneath_tips(new);
         }

@@ -145,6 +145,7 @@ impl Term for FieldContact {
         let law = self.parts.law.at(at.step, at.step_time)?;
         let normal = self.kept_penalty(history);
         let (far, depths) = (reach(self.longest, &accepted.last_change), self.depths(&accepted.u));
+        let bore = (0..self.slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
         let (bonds, mut nearer) = (self.bonds(&*law, history, normal), before.nearer(history, (far, &depths)));
         let reach = self.reach(&accepted.last_change);
         let idle = self.idle(history).into_iter().zip(before.held(at.step)).map(|(idle, held)| idle || held);
@@ -175,7 +176,8 @@ impl Term for FieldContact {
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
             idle: idle.collect(),
-            bore: (0..self.slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0),
+            bore,
+            shared: bore,
             far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
             hold: AtomicBool::default(),

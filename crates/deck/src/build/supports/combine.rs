@@ -5,6 +5,7 @@ use super::Builder;
 use super::claim::{Claim, Known, What};
 use super::equations::{Equation, Fixed, Relation, Relations};
 use crate::diagnose::Diagnostic;
+use crate::reader::Name;
 use asperity_core::mesh::ROUNDING;
 use asperity_core::solve::{Course, Prescribed};
 use asperity_core::system::Constraints;
@@ -43,13 +44,18 @@ impl Builder<'_> {
         let mut related: BTreeSet<usize> = equations.iter().flat_map(|e| e.terms.iter().map(|term| term.0)).collect();
         let unknowns = |node: usize| self.site.dofs.node(node)..self.site.dofs.node(node) + self.site.dofs.per_node();
         related.extend(self.rigid_nodes().into_keys().flat_map(unknowns));
+        let stands = |claim: &&&Claim| claim.course == Course::Hold;
+        let still: BTreeSet<usize> = claims.iter().filter(stands).filter_map(|claim| claim.single()).collect();
+        let groups = self.rigid_nodes();
+        let goes_with_group = |claim: &&&Claim| self.goes_with_group(claim, &groups, &still);
+        let claims: Vec<&Claim> = claims.iter().filter(|claim| !goes_with_group(claim)).copied().collect();
         let held = |claim: &Claim, dof: &usize| !(claim.is_weak() && related.contains(dof));
-        for claim in claims {
+        for claim in &claims {
             if let Some(dof) = claim.single().filter(|dof| held(claim, dof)) {
                 sorted.fix(dof, claim);
             }
         }
-        for claim in claims {
+        for claim in &claims {
             if let (None, What::Direction(first, normal)) = (claim.single(), &claim.what) {
                 sorted.combine(*first, self.site.dofs.per_node(), normal, claim);
             }
@@ -75,6 +81,28 @@ impl Builder<'_> {
         }
         let rigid = self.rigid_unknowns(&sorted, equations);
         sorted.constraints(self.site.dofs.count(), &relations, &rigid)
+    }
+
+    /// Whether a claim holds a node of a rigid group along what all of that stands still along, as a plane of symmetry through it or the axis does.
+    fn goes_with_group(&self, claim: &Claim, groups: &BTreeMap<usize, &Name>, still: &BTreeSet<usize>) -> bool {
+        let (dofs, axes) = (&self.site.dofs, self.site.dofs.per_node());
+        let (first, normal) = match claim.what {
+            What::Unknown(dof) => {
+                let first = dofs.first_of_owner(dof);
+                (first, std::array::from_fn(|axis| f64::from(u8::from(dof == first + axis))))
+            }
+            What::Direction(first, normal) => (first, normal),
+        };
+        let group = groups.get(&(first / axes)).filter(|_| first < dofs.tool(0) && claim.course == Course::Hold);
+        let Some(tool) = group.and_then(|name| self.leader(&name.text)) else { return false };
+        // Along what of the point may the node move: what turns it about the normal does not.
+        let moves = |unknown: usize| match unknown.checked_sub(axes) {
+            None => normal[unknown].abs() > ROUNDING,
+            Some(axis) => axes == 2 || 1.0 - normal[axis].abs() > ROUNDING * ROUNDING,
+        };
+        (0..dofs.per_tool())
+            .filter(|&unknown| moves(unknown))
+            .all(|unknown| still.contains(&(dofs.tool(tool) + unknown)))
     }
 
     /// Unknowns of nodes of rigid groups, which nothing else may hold or relate.
@@ -109,7 +137,9 @@ impl Builder<'_> {
             if self.found.iter().any(|d| d.what == what) {
                 continue;
             }
-            let help = format!("say `motion.{name}` or `load.{name}`, or let the groups have no node in common");
+            let help = format!(
+                "hold all of the group along it, its rotation too, by `motion.{name}`, or let the groups have no node in common"
+            );
             self.found.push(Diagnostic::error(what).at(place).help(help));
         }
         unknowns

@@ -2,8 +2,9 @@
 
 use super::FieldAttempt;
 use crate::contact::augment;
+use crate::contact::field::corner::Pointing;
 use crate::contact::field::corners::WAYS;
-use crate::contact::field::cover::FEET;
+use crate::contact::field::cover::{CornerTouch, FEET};
 use crate::contact::field::tip::TipFoot;
 use crate::contact::record::entry;
 use crate::system::{History, Term};
@@ -17,6 +18,9 @@ const ROUNDED: f64 = 1e-9;
 
 /// Part of what a tip had in the area of a face below which a converged increment goes on with what it has now.
 const CHANGED: f64 = 0.75;
+
+/// Difference of a share beyond which the first increment of a contact goes on with the one that its strains leave.
+const ANOTHER: f64 = 0.1;
 
 impl FieldAttempt<'_> {
     /// Augments, or changes the penalty, and says whether it did.
@@ -145,6 +149,44 @@ impl FieldAttempt<'_> {
         let breaks = |beyond: f64| beyond > 0.0 && beyond >= FIRST * most;
         self.bonds.iter_mut().zip(&beyond).filter(|(_, beyond)| breaks(**beyond)).for_each(|(bond, _)| *bond = false);
         Ok(most > 0.0)
+    }
+
+    /// Where nothing bore at the accepted state, no strain there tells how flat a flank is pressed: once converged, corners of the target and tips have the
+    /// shares that the strains now leave them, which then stay. Says whether any is another by much.
+    pub(super) fn share_anew(&mut self, u: &[f64], new: &History) -> bool {
+        if std::mem::replace(&mut self.shared, true) {
+            return false;
+        }
+        let differs = |had: f64, has: f64| (has - had).abs() > ANOTHER;
+        let mut changed = false;
+        let now = self.in_place(u);
+        let pointings = now.pointings(new, (self.far, self.reach));
+        for (number, now) in pointings.into_iter().enumerate() {
+            let (had, has) = (self.pointings[number].along.norm(), now.along.norm());
+            if self.contact.corners[number / WAYS].own || !differs(had, has) {
+                continue;
+            }
+            let touch = CornerTouch { number, along: now.along };
+            let saw = self.before.touched_by(touch, [-2.0 * self.reach, 2.0 * self.reach]);
+            let gap = saw.map_or(self.pointings[number].gap, |(_, hit)| hit.gap);
+            let saw = saw.map(|(face, hit)| (face, hit.shape));
+            (self.pointings[number], changed) = (Pointing { along: now.along, gap, saw, laid: 0.0 }, true);
+        }
+        let found = self.in_place(u).tips(self.contact.longest, Some(&[]), |_| None, Some(new));
+        for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
+            let landing = |feet: &[Option<TipFoot>]| feet.iter().flatten().find_map(|foot| foot.patch.tip);
+            match (landing(before), landing(now)) {
+                (Some(had), Some(has)) if differs(had.share, has.share) => {
+                    let landings = before.iter_mut().flatten().filter_map(|found| found.patch.tip.as_mut());
+                    landings.for_each(|landing| (landing.share, landing.slender) = (has.share, has.slender));
+                }
+                // A flank that lay flat to rounding saw nothing.
+                (None, Some(has)) if has.slender => before.copy_from_slice(now),
+                _ => continue,
+            }
+            changed = true;
+        }
+        changed
     }
 
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it

@@ -412,9 +412,11 @@ displacement."arm.left" = { x = 0.0, y = 0.0 }
     let force = forces.iter().fold([0.0_f64; 2], |[least, most], f| [least.min(*f), most.max(*f)]);
     // It resists both ways, and comes free.
     assert!(force[0] < -0.05 && force[1] > 0.05, "{force:?}");
+    // The side of the ledge that its corner leaves beneath the hook held that with 2.4, over a hundredth of a face.
+    assert!(force[1] < 0.3, "{force:?}");
     assert!(forces.last().unwrap().abs() < 1e-9);
     let iterations = keep.states.last().unwrap().iterations;
-    assert!(iterations < 400, "{iterations}");
+    assert!(iterations < 320, "{iterations}");
 }
 
 /// A serpentine spring of thin legs is squeezed, all of its sides in one group. A ray inward that grazed another leg took the end of that for the end of its

@@ -3,7 +3,7 @@
 mod support;
 
 use asperity::system::State;
-use support::{Keep, model, run};
+use support::{Keep, columns, model, run};
 
 fn stored(keep: &Keep) -> [f64; 2] {
     let state = keep.states.last().unwrap();
@@ -120,4 +120,29 @@ motion.rim.rotation = 300.0
     let twisted = keep.states.iter().rfind(|state| state.time < 1.0 + 1e-9).map(energy).unwrap();
     let end = energy(keep.states.last().unwrap());
     assert!((end / twisted - 1.0).abs() < 1e-6, "{twisted} {end}");
+}
+
+/// Half of a block under a rigid head, whose nodes on the plane of symmetry that holds too, is half of the whole.
+#[test]
+fn a_plane_of_symmetry_may_go_through_a_rigid_group() {
+    let force = |from: f64, cells: usize, symmetry: &str| {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.b.rectangle = {{ from = [{from:.1}, 0.0], to = [2.0, 2.0], cells = [{cells}, 4], cell = "quad4" }}
+material.m.elastic = {{ young = 100.0, poisson = 0.3 }}
+body.b.material = "m"
+rigid.head.group = "b.top"
+[[step]]
+{symmetry}
+displacement."b.bottom" = {{ x = 0.0, y = 0.0 }}
+motion.head = {{ y = -0.2 }}
+"#
+        );
+        let model = model(&deck, &[]);
+        *columns(&model, &run(&model))["tool.head.force.y"].last().unwrap()
+    };
+    let (whole, half) = (force(-2.0, 8, ""), force(0.0, 4, "symmetry = [\"b.left\"]"));
+    assert!((2.0 * half / whole - 1.0).abs() < 1e-9 && whole.abs() > 10.0, "{half} {whole}");
 }

@@ -62,6 +62,8 @@ pub mod entry {
     pub const WORN: usize = 26;
     /// Of a corner of a body: the direction in which it touches, as long as its part of the force is large.
     pub const POINTS: usize = 27;
+    /// Of a node of the field: what a corner of the body takes at least of what it stands for.
+    pub const TAKEN: usize = POINTS;
     /// Number of these values.
     pub const COUNT: usize = 30;
 }

@@ -127,8 +127,9 @@ pub static FIGURES: &[Figure] = &[
         "Shear force of the slipping points of a contact on the target's normals, less what the law allows there, relative to \
          the shear force of the contact, or to half of what it would bear if all of it slipped; without friction the shear force relative to the \
          normal force.",
-        "a finer surface, the flat side as `surface` with roles = \"given\", or form = \"field\" where it is not: forces between bodies follow \
-         the normals of the surface, which are not those of the target at an edge that is tilted",
+        "a finer surface, the flat side as `surface` with roles = \"given\", beside an edge on which a body stands the side beyond that in its \
+         group too (`with`), or form = \"field\" where it is another: forces between bodies follow the normals of the surface, which are not \
+         those of the target at an edge that is tilted",
     ),
     largest("closed_points", "closed points beside one another, at most"),
     largest("least_dissipation", "least dissipation").folded(Fold::Least),

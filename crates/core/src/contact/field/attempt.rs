@@ -79,8 +79,10 @@ pub struct FieldAttempt<'a> {
     pub idle: Vec<bool>,
     /// Whether any node bore a pressure at the accepted state: one that closes then takes over from others what slides all the while.
     pub bore: bool,
-    /// Whether the shares of corners and tips are those of a state that bears.
+    /// Whether the shares of corners and tips are those of a state that bears,
     pub shared: bool,
+    /// and that state, where it is not the accepted one that says what corners of the surface take.
+    pub taking: Option<Configuration<'a>>,
     /// Gap from which on a node is too far away to close in the next iteration.
     pub far: f64,
     /// Length of the increment over that of the last; zero without one.
@@ -103,7 +105,7 @@ impl FieldAttempt<'_> {
         let list_touched =
             |now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>| self.list_touched(now, patch, nodes);
         let mut found = self.contact.find(
-            (&now, tips, &self.pointings),
+            (&now, tips, &self.pointings, &|patch| self.taking.as_ref().unwrap_or(&self.before).taken(patch)),
             self.reach,
             (&self.depths, (&self.before, self.accepted)),
             Some(self.history),

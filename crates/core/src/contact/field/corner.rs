@@ -215,25 +215,25 @@ impl Configuration<'_> {
         self.contact.corners.iter().enumerate().find(unseen).map(|(number, _)| number)
     }
 
-    /// The part that the corners of a face of the surface have of what they stand for over a face of the target: none at a corner of the body
-    /// from which the face rises.
-    pub(super) fn left(&self, patch: &Patch) -> [f64; CORNERS] {
-        let (mut left, contact) = ([1.0; CORNERS], self.contact);
+    /// The part that corners of the body take of what those of a face of the surface stand for over a face of the target: all at one from which the face
+    /// rises from that.
+    pub(super) fn taken(&self, patch: &Patch) -> [f64; CORNERS] {
+        let (mut taken, contact) = ([0.0; CORNERS], self.contact);
         if !contact.parts.surface.creased[patch.face] {
-            return left;
+            return taken;
         }
         let (Some(seen), Some((face, placed))) = (contact.side(false), self.of_side(false, patch.target)) else {
-            return left;
+            return taken;
         };
         let n = seen.middle_normal(face, placed);
         for corner in contact.corners.iter().filter(|corner| corner.own) {
             for flank in corner.flanks.iter().filter(|flank| flank.face == patch.face) {
                 let (Some(at), Some(c)) = (flank.at, self.place_of(corner)) else { continue };
                 let range = RISES.map(|angle| angle + corner.bend + seen.bends[patch.target]);
-                left[at] = 1.0 - self.rises((corner, flank), c, (n, range))[1];
+                taken[at] = self.rises((corner, flank), c, (n, range))[1];
             }
         }
-        left
+        taken
     }
 
     /// The angle by which a flank rises from a face with this normal, and how much of the way between two angles that is.
@@ -367,7 +367,16 @@ impl FieldContact {
         surface.field[f][..surface.faces[f].corners()].iter().any(|&node| self.node_bears(node, history))
     }
 
-    /// How the corners touched in the increment that led to an accepted history.
+    /// What corners of the body took of what those of a face of the surface stand for in the increment that led to an accepted history.
+    pub(super) fn known_taken(&self, patch: &Patch, history: &History) -> [f64; CORNERS] {
+        let (mut taken, piece) = ([0.0; CORNERS], self.piece_of(patch.target));
+        let nodes = &self.parts.surface.field[patch.face][..self.parts.surface.faces[patch.face].corners()];
+        let known = nodes.iter().map(|&node| history.slot(self.slot(node, piece))[entry::TAKEN]);
+        taken.iter_mut().zip(known).for_each(|(taken, known)| *taken = known);
+        taken
+    }
+
+    /// How the corners touched in that increment.
     pub(super) fn known_pointings(&self, history: &History) -> Vec<Pointing> {
         let of = |slot: usize| {
             let [x, y, z] = std::array::from_fn(|axis| history.slot(slot)[entry::POINTS + axis]);

@@ -30,7 +30,9 @@ pub struct Patch {
     pub vertices: [bool; CORNERS],
     /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.
     pub tip: Option<Landing>,
-    /// Part of what each corner of the face stands for that it bears, less at a corner of the body where the face rises from what it sees.
+    /// Part of what each corner of the face stands for that a corner of the body there takes, where the face rises from what it sees,
+    pub taken: [f64; CORNERS],
+    /// and that it bears.
     pub left: [f64; CORNERS],
     /// Where it is that of a corner of a body.
     pub corner: Option<CornerTouch>,
@@ -39,8 +41,9 @@ pub struct Patch {
 impl Patch {
     /// One of a whole face that sees a piece or a face of the target.
     pub fn whole(face: usize, target: usize) -> Self {
-        let (seen, dual, vertices, tip, corner) = Default::default();
-        Self { face, target, ends: [None; 2], near: WHOLE, seen, dual, vertices, tip, left: [1.0; CORNERS], corner }
+        let (seen, dual, vertices, tip, taken, corner) = Default::default();
+        let (ends, left) = ([None; 2], [1.0; CORNERS]);
+        Self { face, target, ends, near: WHOLE, seen, dual, vertices, tip, taken, left, corner }
     }
 
     /// Numbers of the corners at an end of the surface that see the target here.

@@ -95,9 +95,8 @@ impl FieldContact {
             let [thrust, e1, e2] = stencil.directions(sums);
             let record = &mut records[slot];
             let sheared = e1 * values[entry::SHEAR] + e2 * values[entry::SHEAR2];
-            // The part that a tip has in its face is that of the increment.
-            let area = if self.node_of(slot).is_some() { sums.area } else { values[entry::XI] };
-            record.area = area * stencil.stretch().0;
+            // What tips and corners take of nodes is that of the increment.
+            record.area = values[entry::XI] * values[entry::HALF];
             let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
             record.resultant = Some([force, sums.place]);
             let facing = stencil.facing(sums, values[entry::NEARER] > 0.0);
@@ -173,6 +172,7 @@ impl FieldContact {
             },
             segment: (values[entry::SEGMENT] >= 0.0).then_some(slot % self.pieces),
             edge,
+            area: if values[entry::STATUS] > 0.0 { values[entry::XI] * values[entry::HALF] } else { 0.0 },
             worn: values[entry::WORN],
             ..ContactRecord::of(values, self.parts.surface.plane)
         }

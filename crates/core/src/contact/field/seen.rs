@@ -5,8 +5,9 @@ use super::contact::FieldContact;
 use super::corner::{Pointing, SUNK};
 use super::corners::WAYS;
 use super::cover::{CornerTouch, Patch};
-use super::face::{FieldFace, PlacedFace};
+use super::face::{CORNERS, FieldFace, PlacedFace};
 use super::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE};
+use super::point::smoothstep;
 use super::stencil::{NodeSums, StencilInPlace};
 use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
@@ -21,7 +22,12 @@ impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths` of the accepted state `before`.
     pub(super) fn find(
         &self,
-        (now, tips, pointings): (&Configuration, Vec<Option<TipFoot>>, &[Pointing]),
+        (now, tips, pointings, taken): (
+            &Configuration,
+            Vec<Option<TipFoot>>,
+            &[Pointing],
+            &dyn Fn(&Patch) -> [f64; CORNERS],
+        ),
         reach: f64,
         (depths, before): (&[f64], (&Configuration, &[f64])),
         history: Option<&History>,
@@ -43,12 +49,13 @@ impl FieldContact {
         for (number, &most) in depths.iter().enumerate() {
             let mut parts = now.patches(number, reach, &mut near);
             parts.retain(|seen| !history.is_some_and(|history| self.is_beside(seen, (before.0, history))));
-            self.leave_to_corners(&mut parts, before.0);
+            self.leave_to_corners(&mut parts, taken);
+            let corners = self.parts.surface.faces[number].corners();
             for seen in parts {
                 let depth = self.depth_at(&seen, most, (before.0, &whole));
                 let piece = self.piece_of(seen.patch.target);
                 let bears = |corner: &usize| seen.patch.left[*corner] > 0.0;
-                for corner in (0..self.parts.surface.faces[number].corners()).filter(bears) {
+                for corner in (0..corners).filter(bears) {
                     let slot = self.slot(self.parts.surface.field[number][corner], piece);
                     see(slot, (patches.len(), corner), [seen.middle, seen.least], depth);
                 }
@@ -112,21 +119,30 @@ impl FieldContact {
         found
     }
 
-    /// What the corners of a face leave to those of the body, part by part. Dual functions are negative somewhere: where a corner of an edge of the plane
-    /// has only some of the parts that see a smooth piece these have none.
-    fn leave_to_corners(&self, parts: &mut [SeenPart], before: &Configuration) {
-        for seen in &mut *parts {
-            seen.patch.left = before.left(&seen.patch);
+    /// What corners of the body leave to the nodes of a face, part by part. Dual functions are negative somewhere: where a corner of an edge of the plane
+    /// has only some of the parts that see a smooth piece these have none. Nor has the other node of such an edge what that sees beside the corner alone,
+    /// which it would bear over next to no area.
+    fn leave_to_corners(&self, parts: &mut [SeenPart], taken: &dyn Fn(&Patch) -> [f64; CORNERS]) {
+        for SeenPart { patch, .. } in &mut *parts {
+            patch.taken = taken(patch);
+            patch.left = patch.taken.map(|taken| 1.0 - taken);
         }
-        if !self.parts.surface.plane {
+        let none = [0.0; CORNERS];
+        if !self.parts.surface.plane || parts.iter().all(|seen| seen.patch.taken == none) {
             return;
         }
         for k in 0..parts.len() {
-            let Patch { target, left, .. } = parts[k].patch;
+            let Patch { target, taken: [first, second, ..], .. } = parts[k].patch;
             let mut same = parts.iter().filter(|seen| self.piece_of(seen.patch.target) == self.piece_of(target));
-            if same.any(|seen| seen.patch.left != left) {
-                parts[k].patch.dual = 0.0;
-            }
+            let differs = same.any(|seen| seen.patch.taken[..2] != [first, second]);
+            let patch = &mut parts[k].patch;
+            patch.dual = if differs { 0.0 } else { patch.dual };
+            let face = &self.parts.surface.faces[patch.face];
+            let ([a, _], [b, _]) = (face.corner_place(0), face.corner_place(1));
+            let part = (0.5 * (patch.near[0] + patch.near[1]) - a) / (b - a);
+            let beside = |part: f64| smoothstep((part - 0.5) / (ALL - 0.5))[0];
+            patch.left[0] *= 1.0 - second * beside(part);
+            patch.left[1] *= 1.0 - first * beside(1.0 - part);
         }
     }
 
@@ -242,7 +258,11 @@ impl FieldContact {
             None => now.tips(self.longest, Some(&[]), |_| None, None),
         };
         let pointings = history.map_or(Vec::new(), |history| self.known_pointings(history));
-        self.find((&now, tips, &pointings), reach, (&depths, (&now, u)), history, |_, _, _| {})
+        let taken = |patch: &Patch| match history {
+            Some(history) => self.known_taken(patch, history),
+            None => now.taken(patch),
+        };
+        self.find((&now, tips, &pointings, &taken), reach, (&depths, (&now, u)), history, |_, _, _| {})
     }
 
     /// Values of a stencil's unknowns.
@@ -291,5 +311,7 @@ const BEHIND: f64 = 0.02;
 const OUT: f64 = 0.1;
 /// How far past the edges of a face, in reference coordinates, it counts as one that is near.
 const PAST: f64 = 0.1;
+/// Mean function of a node of a patch from which on that is all of the node.
+const ALL: f64 = 0.9;
 /// Part of the largest admissible depth from which on a patch of a surface that touches itself is asked for its own.
 const DEEP: f64 = 0.25;

@@ -172,6 +172,12 @@ impl<'a> StencilInPlace<'a> {
         self.found.supports[self.slot].slid
     }
 
+    /// What corners of the body take of the node at least.
+    pub fn taken(&self) -> f64 {
+        let patches = self.found.supports[self.slot].patches.iter();
+        patches.map(|&(number, corner)| self.found.patches[number].patch.taken[corner]).reduce(f64::min).unwrap_or(0.0)
+    }
+
     /// Whether the target came through the body here.
     pub fn is_through(&self) -> bool {
         self.found.supports[self.slot].through

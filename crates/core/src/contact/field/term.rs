@@ -178,6 +178,7 @@ impl Term for FieldContact {
             idle: idle.collect(),
             bore,
             shared: bore,
+            taking: None,
             far,
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
             hold: AtomicBool::default(),

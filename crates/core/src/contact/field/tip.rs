@@ -29,7 +29,6 @@ use super::point::{PatchPoint, PointRates, Sight, Touched, smoothstep};
 use super::points::Recall;
 use super::tool::ToolInPlace;
 use crate::contact::record::entry;
-use crate::mesh::Side;
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::Tip;
@@ -239,7 +238,7 @@ impl Configuration<'_> {
     /// The places of the surface that a tip may touch, of those that it points at, closest first.
     fn places(&self, tip: &Tip, tool: &ToolInPlace, reach: f64) -> Vec<TipPlace> {
         let points = tool.rotate(tip.outward);
-        let (mut found, mut valleys): (Vec<TipPlace>, Vec<(usize, Side)>) = (Vec::new(), Vec::new());
+        let (mut found, mut valleys): (Vec<TipPlace>, Vec<usize>) = (Vec::new(), Vec::new());
         let surface = &self.contact.parts.surface;
         for (f, face) in surface.faces.iter().enumerate() {
             let edge = PlacedEdge { face, placed: &self.placed[f] };
@@ -267,23 +266,26 @@ impl Configuration<'_> {
                 let xi = [xi, 0.0];
                 found.push(TipPlace { face: f, xi, nearer, corner, border, rest, centre, radius, q, n, gap });
             };
+            // Both halves of an edge of second degree meet without a crease.
+            let is_middle = |corner: usize| face.end().is_some_and(|end| end != corner);
             match corner {
                 None => offer(None, None),
                 // A rounding touches a ridge and the end of the surface.
-                Some(corner) if crest == Some(true) && radius > 0.0 => offer(Some(corner), ends.then_some(corner)),
+                Some(corner) if crest == Some(true) && radius > 0.0 && !is_middle(corner) => {
+                    offer(Some(corner), ends.then_some(corner))
+                }
                 Some(corner) if ends => {
                     if to.dot(tangent).abs() <= BESIDE * tangent.dot(tangent) {
                         offer(None, Some(corner));
                     }
                 }
                 // Within both edges that meet there.
-                Some(corner) if crest == Some(false) => {
+                Some(corner) if crest == Some(false) || is_middle(corner) => {
                     let node = face.corner_node(corner);
-                    match valleys.iter().find(|(other, _)| *other == node) {
-                        // Both halves of an edge of second degree meet without a crease.
-                        Some((_, side)) if *side == face.side => offer(None, None),
-                        Some(_) => offer(Some(corner), None),
-                        None => valleys.push((node, face.side)),
+                    if !valleys.contains(&node) {
+                        valleys.push(node);
+                    } else {
+                        offer(Some(corner).filter(|corner| !is_middle(*corner)), None);
                     }
                 }
                 Some(_) => {}

@@ -83,7 +83,7 @@ impl Builder<'_> {
         sorted.constraints(self.site.dofs.count(), &relations, &rigid)
     }
 
-    /// Whether a claim holds a node of a rigid group along what all of that stands still along, as a plane of symmetry through it or the axis does.
+    /// Whether a claim holds a node of a rigid group along what all of that stands still along, as a plane of symmetry through it does.
     fn goes_with_group(&self, claim: &Claim, groups: &BTreeMap<usize, &Name>, still: &BTreeSet<usize>) -> bool {
         let (dofs, axes) = (&self.site.dofs, self.site.dofs.per_node());
         let (first, normal) = match claim.what {

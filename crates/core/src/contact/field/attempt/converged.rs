@@ -2,9 +2,10 @@
 
 use super::FieldAttempt;
 use crate::contact::augment;
+use crate::contact::field::configuration::Configuration;
 use crate::contact::field::corner::Pointing;
 use crate::contact::field::corners::WAYS;
-use crate::contact::field::cover::{CornerTouch, FEET};
+use crate::contact::field::cover::{CornerTouch, FEET, Patch};
 use crate::contact::field::tip::TipFoot;
 use crate::contact::record::entry;
 use crate::system::{History, Term};
@@ -151,7 +152,7 @@ impl FieldAttempt<'_> {
         Ok(most > 0.0)
     }
 
-    /// Where nothing bore at the accepted state, no strain there tells how flat a flank is pressed: once converged, corners of the target and tips have the
+    /// Where nothing bore at the accepted state, no strain there tells how flat a flank is pressed: once converged, corners and tips have the
     /// shares that the strains now leave them, which then stay. Says whether any is another by much.
     pub(super) fn share_anew(&mut self, u: &[f64], new: &History) -> bool {
         if std::mem::replace(&mut self.shared, true) {
@@ -159,11 +160,11 @@ impl FieldAttempt<'_> {
         }
         let differs = |had: f64, has: f64| (has - had).abs() > ANOTHER;
         let mut changed = false;
-        let now = self.in_place(u);
+        let now = Configuration::with(self.contact, u, self.before.arcs.clone());
         let pointings = now.pointings(new, (self.far, self.reach));
         for (number, now) in pointings.into_iter().enumerate() {
             let (had, has) = (self.pointings[number].along.norm(), now.along.norm());
-            if self.contact.corners[number / WAYS].own || !differs(had, has) {
+            if !differs(had, has) {
                 continue;
             }
             let touch = CornerTouch { number, along: now.along };
@@ -172,7 +173,10 @@ impl FieldAttempt<'_> {
             let saw = saw.map(|(face, hit)| (face, hit.shape));
             (self.pointings[number], changed) = (Pointing { along: now.along, gap, saw, laid: 0.0 }, true);
         }
-        let found = self.in_place(u).tips(self.contact.longest, Some(&[]), |_| None, Some(new));
+        let found = self.found();
+        let differ = |patch: &Patch| patch.taken.iter().zip(now.taken(patch)).any(|(&had, has)| differs(had, has));
+        let take_another = found.patches.iter().any(|found| differ(&found.patch));
+        let found = now.tips(self.contact.longest, Some(&[]), |_| None, Some(new));
         for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
             let landing = |feet: &[Option<TipFoot>]| feet.iter().flatten().find_map(|foot| foot.patch.tip);
             match (landing(before), landing(now)) {
@@ -185,6 +189,9 @@ impl FieldAttempt<'_> {
                 _ => continue,
             }
             changed = true;
+        }
+        if take_another {
+            (self.taking, changed) = (Some(now), true);
         }
         changed
     }

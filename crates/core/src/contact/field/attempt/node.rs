@@ -87,6 +87,7 @@ impl FieldAttempt<'_> {
         new[entry::SEGMENT] = -1.0;
         if let Some(node) = contact.node_of(slot) {
             [new[entry::UNBENT], new[entry::AT_REST]] = self.duals[node];
+            new[entry::TAKEN] = stencil.taken();
         }
         if self.sum(stencil, false, sums).is_none() {
             if stencil.is_through() && old[entry::PRESSURE] != 0.0 {

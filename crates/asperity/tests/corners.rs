@@ -410,10 +410,9 @@ displacement."arm.left" = { x = 0.0, y = 0.0 }
     let keep = run(&model);
     let forces = &columns(&model, &keep)["contact.c.force.x"];
     let force = forces.iter().fold([0.0_f64; 2], |[least, most], f| [least.min(*f), most.max(*f)]);
-    // It resists both ways, and comes free.
-    assert!(force[0] < -0.05 && force[1] > 0.05, "{force:?}");
-    // The side of the ledge that its corner leaves beneath the hook held that with 2.4, over a hundredth of a face.
-    assert!(force[1] < 0.3, "{force:?}");
+    // It resists both ways, and comes free; with 2.4 the side of the ledge held it that has nothing beneath the hook but what lies at the corner. Behind the
+    // ledge it is held by friction alone (mu N = 0.05): slopes that meet by less than 40 degrees count as round.
+    assert!(force[0] < -0.05 && (0.04..0.3).contains(&force[1]), "{force:?}");
     assert!(forces.last().unwrap().abs() < 1e-9);
     let iterations = keep.states.last().unwrap().iterations;
     assert!(iterations < 320, "{iterations}");
@@ -460,5 +459,38 @@ displacement."s.right" = { x = -8.0, y = 0.0 }
         let force: Vec<f64> = table["reaction.s.right.x"].iter().map(|force| -force).collect();
         // As long as nothing touches it is nearly linear.
         assert!((force[5] / force[2] - 2.0).abs() < 0.1 && force[19] > force[5], "{cells}: {force:?}");
+    }
+}
+
+/// Forces of a contact are what the supports of the bodies bear in every frame, also where the corner of a tilted block, which carries the surface, takes over
+/// from the field and hands back: up to 44 % of it was missing in the history.
+#[test]
+fn forces_at_corners_of_the_surface_are_those_of_the_supports() {
+    let parts = r#"
+mesh.part.block.rectangle = { from = [0.0, 0.0], to = [4.0, 3.0], cells = [8, 6], cell = "quad8" }
+mesh.part.base.rectangle = { from = [-4.0, -3.0], to = [10.0, 0.0], cells = [14, 3], cell = "quad8" }"#;
+    let rest = r#"
+material.m.elastic = { young = 1000.0, poisson = 0.3 }
+body.block.material = "m"
+body.base.material = "m"
+group.under = { of = "block.bottom", with = ["block.left", "block.right"] }
+contact.c = { surface = "under", target = "base.top", roles = "given", law.coulomb = { friction = 0.2 } }
+[[step]]
+increments.count = 4
+displacement."base.bottom" = { x = 0.0, y = 0.0 }
+displacement."block.top" = { x = 0.0, y = -0.15 }
+[[step]]
+increments.count = 4
+displacement."block.top" = { x = 3.0, y = -0.15 }
+"#;
+    for tilt in [0.03_f64, 0.06, 0.15] {
+        let (sin, cos) = tilt.sin_cos();
+        let model = moved(parts, rest, "block", |[x, y]| [cos * x - sin * y, sin * x + cos * y]);
+        let table = columns(&model, &run(&model));
+        let [held, borne] = ["reaction.base.bottom.y", "contact.c.force.y"].map(|name| &table[name]);
+        for (held, borne) in held.iter().zip(borne) {
+            assert!((borne.abs() - held.abs()).abs() < 5e-3 * held.abs(), "{tilt}: {borne} of {held}");
+        }
+        assert!(held.iter().all(|force| force.abs() > 1.0), "{held:?}");
     }
 }

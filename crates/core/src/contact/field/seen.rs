@@ -18,16 +18,14 @@ use crate::system::History;
 use crate::tensor::BoundingBox;
 use std::cell::OnceCell;
 
+/// What corners of the body take of the nodes of a face, patch by patch.
+type Taken<'a> = dyn Fn(&Patch) -> [f64; CORNERS] + 'a;
+
 impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths` of the accepted state `before`.
     pub(super) fn find(
         &self,
-        (now, tips, pointings, taken): (
-            &Configuration,
-            Vec<Option<TipFoot>>,
-            &[Pointing],
-            &dyn Fn(&Patch) -> [f64; CORNERS],
-        ),
+        (now, tips, pointings, taken): (&Configuration, Vec<Option<TipFoot>>, &[Pointing], &Taken),
         reach: f64,
         (depths, before): (&[f64], (&Configuration, &[f64])),
         history: Option<&History>,
@@ -122,7 +120,7 @@ impl FieldContact {
     /// What corners of the body leave to the nodes of a face, part by part. Dual functions are negative somewhere: where a corner of an edge of the plane
     /// has only some of the parts that see a smooth piece these have none. Nor has the other node of such an edge what that sees beside the corner alone,
     /// which it would bear over next to no area.
-    fn leave_to_corners(&self, parts: &mut [SeenPart], taken: &dyn Fn(&Patch) -> [f64; CORNERS]) {
+    fn leave_to_corners(&self, parts: &mut [SeenPart], taken: &Taken) {
         for SeenPart { patch, .. } in &mut *parts {
             patch.taken = taken(patch);
             patch.left = patch.taken.map(|taken| 1.0 - taken);

@@ -117,6 +117,11 @@ pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
     law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
 }
 
+/// The present area of a node of a field, from what is known of it.
+pub fn area(values: &[f64]) -> f64 {
+    values[entry::XI] * values[entry::HALF]
+}
+
 /// The normal force of a node of a field, from what is known of it.
 pub fn normal_force(values: &[f64]) -> f64 {
     values[entry::PRESSURE].max(0.0) * values[entry::HALF] * values[entry::XI]

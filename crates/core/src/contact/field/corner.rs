@@ -137,10 +137,15 @@ impl Configuration<'_> {
         let corners = self.contact.corners.iter().enumerate();
         let ways = corners.flat_map(|(number, corner)| self.pointing((number, corner), history, far));
         let saw = |(number, on): (usize, Pointing)| {
-            let found = self.touched_by(CornerTouch { number, along: on.along }, [-2.0 * reach, 2.0 * reach]);
+            let found = self.seen_along(CornerTouch { number, along: on.along }, reach);
             Pointing { saw: found.map(|(face, hit)| (face, hit.shape)), ..on }
         };
         ways.enumerate().map(saw).collect()
+    }
+
+    /// The face that a corner sees along the direction in which it points, this far before it or behind, and where.
+    pub(super) fn seen_along(&self, touch: CornerTouch, reach: f64) -> Option<(usize, FaceProjection)> {
+        self.touched_by(touch, [-2.0 * reach, 2.0 * reach])
     }
 
     fn pointing(&self, (number, corner): (usize, &BodyCorner), history: &History, far: f64) -> [Pointing; WAYS] {

@@ -6,7 +6,7 @@ use super::face::{FieldFace, moved};
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
-use crate::contact::record::{ContactRecord, entry, normal_force};
+use crate::contact::record::{ContactRecord, area, entry, normal_force};
 use crate::contact::{Borne, Move};
 use crate::system::History;
 use crate::tensor::{DisjointSets, Vec3};
@@ -96,7 +96,7 @@ impl FieldContact {
             let record = &mut records[slot];
             let sheared = e1 * values[entry::SHEAR] + e2 * values[entry::SHEAR2];
             // What tips and corners take of nodes is that of the increment.
-            record.area = values[entry::XI] * values[entry::HALF];
+            record.area = area(values);
             let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
             record.resultant = Some([force, sums.place]);
             let facing = stencil.facing(sums, values[entry::NEARER] > 0.0);
@@ -172,7 +172,7 @@ impl FieldContact {
             },
             segment: (values[entry::SEGMENT] >= 0.0).then_some(slot % self.pieces),
             edge,
-            area: if values[entry::STATUS] > 0.0 { values[entry::XI] * values[entry::HALF] } else { 0.0 },
+            area: if values[entry::STATUS] > 0.0 { area(values) } else { 0.0 },
             worn: values[entry::WORN],
             ..ContactRecord::of(values, self.parts.surface.plane)
         }

@@ -43,6 +43,16 @@ pub struct TipFoot {
     pub gap: f64,
 }
 
+/// Where a tip of these feet lies, by the first of them that there is.
+pub(super) fn landing(feet: &[Option<TipFoot>]) -> Option<Landing> {
+    feet.iter().flatten().find_map(|foot| foot.patch.tip)
+}
+
+/// The same of all of them.
+pub(super) fn landings(feet: &mut [Option<TipFoot>]) -> impl Iterator<Item = &mut Landing> {
+    feet.iter_mut().flatten().filter_map(|foot| foot.patch.tip.as_mut())
+}
+
 /// Angles between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner of a punch does:
 /// the flank's own nodes then feel all that there is, and the tip nothing. Of a rounding larger than the face, over that.
 const FLAT: [f64; 2] = [0.45, 0.72];
@@ -177,8 +187,7 @@ impl Configuration<'_> {
             };
             let first = FEET * number;
             let last = |before: &[Option<TipFoot>]| {
-                let feet = before.get(first..first + FEET)?;
-                feet.iter().flatten().find_map(|found| found.patch.tip).map(|landing| (landing.share, false))
+                landing(before.get(first..first + FEET)?).map(|landing| (landing.share, false))
             };
             let share = || {
                 let slots = self.contact.nodal_slots() + first..self.contact.nodal_slots() + first + FEET;

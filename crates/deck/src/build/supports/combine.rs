@@ -43,10 +43,10 @@ impl Builder<'_> {
         // A node of no cell is held, but not where an equation or a rigid group says what it does.
         let mut related: BTreeSet<usize> = equations.iter().flat_map(|e| e.terms.iter().map(|term| term.0)).collect();
         let unknowns = |node: usize| self.site.dofs.node(node)..self.site.dofs.node(node) + self.site.dofs.per_node();
-        related.extend(self.rigid_nodes().into_keys().flat_map(unknowns));
+        let groups = self.rigid_nodes();
+        related.extend(groups.keys().flat_map(|&node| unknowns(node)));
         let stands = |claim: &&&Claim| claim.course == Course::Hold;
         let still: BTreeSet<usize> = claims.iter().filter(stands).filter_map(|claim| claim.single()).collect();
-        let groups = self.rigid_nodes();
         let goes_with_group = |claim: &&&Claim| self.goes_with_group(claim, &groups, &still);
         let claims: Vec<&Claim> = claims.iter().filter(|claim| !goes_with_group(claim)).copied().collect();
         let held = |claim: &Claim, dof: &usize| !(claim.is_weak() && related.contains(dof));

@@ -6,7 +6,7 @@ use crate::contact::field::configuration::Configuration;
 use crate::contact::field::corner::Pointing;
 use crate::contact::field::corners::WAYS;
 use crate::contact::field::cover::{CornerTouch, FEET, Patch};
-use crate::contact::field::tip::TipFoot;
+use crate::contact::field::tip::{TipFoot, landing, landings};
 use crate::contact::record::entry;
 use crate::system::{History, Term};
 use crate::{Failure, FailureKind};
@@ -155,7 +155,8 @@ impl FieldAttempt<'_> {
     /// Where nothing bore at the accepted state, no strain there tells how flat a flank is pressed: once converged, corners and tips have the
     /// shares that the strains now leave them, which then stay. Says whether any is another by much.
     pub(super) fn share_anew(&mut self, u: &[f64], new: &History) -> bool {
-        if std::mem::replace(&mut self.shared, true) {
+        let none = self.contact.corners.is_empty() && self.tips_before.is_empty();
+        if std::mem::replace(&mut self.shared, true) || none {
             return false;
         }
         let differs = |had: f64, has: f64| (has - had).abs() > ANOTHER;
@@ -168,7 +169,7 @@ impl FieldAttempt<'_> {
                 continue;
             }
             let touch = CornerTouch { number, along: now.along };
-            let saw = self.before.touched_by(touch, [-2.0 * self.reach, 2.0 * self.reach]);
+            let saw = self.before.seen_along(touch, self.reach);
             let gap = saw.map_or(self.pointings[number].gap, |(_, hit)| hit.gap);
             let saw = saw.map(|(face, hit)| (face, hit.shape));
             (self.pointings[number], changed) = (Pointing { along: now.along, gap, saw, laid: 0.0 }, true);
@@ -178,11 +179,9 @@ impl FieldAttempt<'_> {
         let take_another = found.patches.iter().any(|found| differ(&found.patch));
         let found = now.tips(self.contact.longest, Some(&[]), |_| None, Some(new));
         for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
-            let landing = |feet: &[Option<TipFoot>]| feet.iter().flatten().find_map(|foot| foot.patch.tip);
             match (landing(before), landing(now)) {
                 (Some(had), Some(has)) if differs(had.share, has.share) => {
-                    let landings = before.iter_mut().flatten().filter_map(|found| found.patch.tip.as_mut());
-                    landings.for_each(|landing| (landing.share, landing.slender) = (has.share, has.slender));
+                    landings(before).for_each(|landing| (landing.share, landing.slender) = (has.share, has.slender));
                 }
                 // A flank that lay flat to rounding saw nothing.
                 (None, Some(has)) if has.slender => before.copy_from_slice(now),
@@ -199,7 +198,7 @@ impl FieldAttempt<'_> {
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
     /// did.
     pub(super) fn yield_tips(&mut self, u: &[f64]) -> bool {
-        let share = |feet: &[Option<TipFoot>]| Some(feet.iter().flatten().next()?.patch.tip?.share);
+        let share = |feet: &[Option<TipFoot>]| landing(feet).map(|landing| landing.share);
         if self.tips_before.chunks(FEET).filter_map(share).all(|before| before == 0.0) {
             return false;
         }
@@ -209,8 +208,7 @@ impl FieldAttempt<'_> {
             if let (Some(had), Some(share)) = (share(before), share(now))
                 && share < CHANGED * had
             {
-                let landings = before.iter_mut().flatten().filter_map(|found| found.patch.tip.as_mut());
-                landings.for_each(|landing| (landing.share, changed) = (share, true));
+                landings(before).for_each(|landing| (landing.share, changed) = (share, true));
             }
         }
         changed

@@ -7,7 +7,7 @@ use crate::contact::field::corner::Pointing;
 use crate::contact::field::stencil::{COUNT, NodeSums, StencilInPlace};
 use crate::contact::increment::{in_contact, refuse_jump};
 use crate::contact::kink::answer;
-use crate::contact::record::{entry, leave, normal_force, past, write};
+use crate::contact::record::{area, entry, leave, normal_force, past, write};
 use crate::interface::{Past, Status};
 use crate::system::{Answer, Branch, Coordinates, Local, Term};
 use crate::tensor::root;
@@ -95,7 +95,7 @@ impl FieldAttempt<'_> {
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
             self.leave(slot, old, new);
-            let area = old[entry::XI] * old[entry::HALF];
+            let area = area(old);
             if old[entry::STATUS] > 0.0 {
                 let past = self.past(slot, old[entry::HALF]);
                 let (terms, options) = ((&*self.law, &past, old), (&contact.parts.options, self.at));
@@ -107,7 +107,7 @@ impl FieldAttempt<'_> {
         }
         let (stretch, stretching) = stencil.stretch();
         let (past, law) = (self.past(slot, stretch), &*self.law);
-        let areas = [old[entry::XI] * old[entry::HALF], sums.area * stretch];
+        let areas = [area(old), sums.area * stretch];
         let (options, multiplied, terms) = (&contact.parts.options, self.shift(slot)[0], (law, &past, old));
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
